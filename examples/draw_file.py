@@ -38,6 +38,8 @@ def draw_file(documentation, written_by, load, draw):
         parser.error(str(error))
     except ValueError as error:
         parser.error(f"{arguments.file} is not what {written_by} has written: {error}")
+    except (LookupError, TypeError) as error:  # what is drawn has its name, but is something else
+        parser.error(f"{arguments.file} is not what {written_by} has written: {error!r}")
     try:
         figure.savefig(arguments.picture)
     except (OSError, ValueError) as error:  # not all of them name a file

@@ -58,6 +58,39 @@ def python_scripts(tree):
         expect(2, said, sys.executable, *words)
 
 
+def with_programs_of_its_own(tree, **texts):
+    """An environment for a script, in which these come first."""
+    folder = tree / "_".join(texts)
+    for name, text in texts.items():
+        program(folder / name, f"#!/bin/sh\n{text}\n")
+    return {"env": {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}}
+
+
+def numerics(tree):
+    """A number that is none is far, wherever it stands, and so is what is no longer 0; zeros are not."""
+    words = (sys.executable, tree / "test/numerics", "--build", tree / "numerics", "-R", "^clang.. -O3$")
+    for said, code, numbers in (("| 0e+00 |", 0, "0 -0 0"), ("| inf **far** |", 1, "0 0 1e-300"),
+                                ("| inf **far** |", 1, "nan 0 0"), ("| inf **far** |", 1, "0 nan 0")):
+        for name, told in (("g_Debug", "0 0 0"), ("clang_O3", numbers)):
+            program(tree / "numerics" / name / "test/result_bits/result_bits",
+                    f"#!/bin/sh\necho scene 1\necho device place 1 2 3\necho device torque {told}\n")
+        expect(code, said, *words, **with_programs_of_its_own(tree, cmake="true"))
+
+
+def coverage(tree):
+    """Counts of earlier runs are no part of a run's."""
+    old = tree / "build-coverage/test/old.gcda"
+    old.parent.mkdir(parents=True)
+    tools = {"gcovr": "echo '{\"files\": []}'", "clang++": "true", "llvm-cov": "true", "ctest": "true"}
+    path = with_programs_of_its_own(tree, **tools)
+    (tree / "include/haptic_sculpt").mkdir(parents=True)
+    for words, is_kept in ((["--no-run"], True), (["--no-build"], False)):
+        old.write_text("counts")
+        expect(0, "| all | 0 |", sys.executable, tree / "test/coverage", *words, **path)
+        if old.exists() != is_kept:
+            faults.append(f"coverage {words}: counts of earlier runs are {'lost' if is_kept else 'added'}")
+
+
 def test_run(tree):
     """With a cmake that ends with 9: so far, and no farther, right uses come."""
     program(tree / ".ci/install_packages", "")
@@ -76,6 +109,10 @@ def test_run(tree):
         expect(2, said, *run, *words, **path)
     expect(2, "cannot create directory", "bash", ROOT / "test/newer_cgal", "sid", tree / "test/run")
     expect(2, "prints the folder", "bash", ROOT / "test/newer_cgal", "sid")
+    told = with_programs_of_its_own(tree, ctest='echo "$@"', cmake="true", python3="true")
+    for words in (["-V"], ["-R", "b"]):
+        expect(0, " ".join(["-R ^(test_threads|test_exchange|haptic_loop_program)$", *words]),
+               *run, "--thread-sanitizer", *words, **told)
     for words in (["--help"], ["-R", "a", "-h"]):
         expect(0, "Installs what is missing", *run, *words, **path)
 
@@ -97,7 +134,9 @@ def plots(folder):
     for name, text in (("empty", b""), ("binary", b"\xff\xfe\0"), ("no_column", b"a,b\n1,2\n"),
                        ("no_row", f"{TRACE}\n".encode()), ("short", f"{TRACE}\n1\n".encode()),
                        ("nan", f"{TRACE}\n{row[:-4]}nan\n".encode()), ("other.json", b"[]"), ("none.json", b"{}"),
-                       ("folder", None), ("lost", None)):
+                       ("folder", None), ("lost", None),
+                       ("other_part.json", b'{"effects": [{"effect": 1}], "chart": [], "comparisons": [{"way": 1}]}'),
+                       ("other_kind.json", b'{"effects": 5, "chart": 5, "comparisons": 5}')):
         given = folder / name
         if text is not None:
             given.write_bytes(text)
@@ -106,7 +145,7 @@ def plots(folder):
         expect(2, str(given), *trace, given, folder / "none.png")
         expect(2, str(given), *samples, given, folder / "none.png")
         expect(2, str(given), *tables, given)
-        if name in ("binary", "none.json", "lost"):
+        if name in ("binary", "none.json", "lost", "other_part.json", "other_kind.json"):
             expect(2, str(given), *passivity, given, folder / "none.png")
             expect(2, str(given), *chain, given, folder / "none.png")
     good.write_text("0 0 0 1 1 1 1 1\n0.001 0.001 0 1 2 1 1 1\n")
@@ -138,6 +177,8 @@ with tempfile.TemporaryDirectory() as place:
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, tree / name)
     python_scripts(tree)
+    numerics(tree)
+    coverage(tree)
     test_run(tree)
     plots(pathlib.Path(place))
 print(f"{len(faults)} faults", *faults, sep="\n")

@@ -4,6 +4,7 @@ import pathlib
 import subprocess
 import sys
 
+import ends_with_parent
 import results
 import steps
 
@@ -35,7 +36,8 @@ def minimise(out, names, sculpt):
             continue
         words = [sys.executable, steps.BENCHMARK / "robustness" / "minimise", sculpt, script.with_suffix(".off"),
                  script, "--out", script.with_name(script.stem + SMALL), "--seconds", SECONDS_A_CASE]
-        done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
+        done = subprocess.run([str(word) for word in words], capture_output=True, text=True,
+                              preexec_fn=ends_with_parent.of_this_process())
         said = {0: done.stdout.split(" tries")[0] + " tries",
                 1: "replayed by sculpt it does not fail: robustness alone judges what did"}
         otherwise = f"minimise ended with {done.returncode}: {done.stderr.strip()[-300:]}"

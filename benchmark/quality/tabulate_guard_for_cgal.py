@@ -5,16 +5,20 @@
 Exit: 0, 2 a file that cannot be read or is no such report.
 """
 import argparse
+import contextlib
+import io
 import json
 from statistics import median
 
 
 def comparisons_of(path):
-    """\\throw ValueError, OSError"""
+    """\\throw ValueError, LookupError, TypeError, AttributeError, OSError"""
     with open(path) as file:
         report = json.load(file)
     if not isinstance(report, dict) or "comparisons" not in report:
         raise ValueError("there is no 'comparisons'")
+    with contextlib.redirect_stdout(io.StringIO()):  # which finds what a row lacks before anything is printed
+        tell(report["comparisons"])
     return report["comparisons"]
 
 
@@ -98,6 +102,14 @@ def tell_remeshing(remeshed):
               f"ratio {median(ratios):.2f}", f"at most 2 times in {sum(ratio <= 2 for ratio in ratios)}")
 
 
+def tell(rows):
+    tell_summary(rows)
+    tell_functions([row for row in rows if row["way"] != "remesher"])
+    remeshed = [row for row in rows if row["way"] == "remesher" and not row["plain"]["failed"]]
+    if remeshed:
+        tell_remeshing(remeshed)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("reports", nargs="+", metavar="RUN.json", help="what guard_for_cgal --json has written")
@@ -108,11 +120,9 @@ def main():
             rows += comparisons_of(path)
         except (OSError, ValueError) as error:
             parser.error(f"{path} is not what guard_for_cgal --json has written: {error}")
-    tell_summary(rows)
-    tell_functions([row for row in rows if row["way"] != "remesher"])
-    remeshed = [row for row in rows if row["way"] == "remesher" and not row["plain"]["failed"]]
-    if remeshed:
-        tell_remeshing(remeshed)
+        except (LookupError, TypeError, AttributeError) as error:
+            parser.error(f"{path} is not what guard_for_cgal --json has written: {error!r}")
+    tell(rows)
 
 
 if __name__ == "__main__":

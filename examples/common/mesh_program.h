@@ -23,7 +23,7 @@ inline std::string message_of(const std::exception& error) {
   std::string text =
       said.substr(0, said.find('\n') + 1) + refused->report().message(8, Validity_report::Reader::user);
   if (!refused->report().non_triangular_faces.empty())
-    text += "`sculpt MESH --triangulate -o OUT` divides polygons into triangles.\n";
+    text += "`sculpt MESH --triangulate -o OUT` divides polygons into triangles, where nothing else is wrong.\n";
   if (refused->report().is_repairable())
     text += "`sculpt MESH --repair -o OUT` repairs what can be repaired.";
   else

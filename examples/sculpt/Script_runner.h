@@ -121,20 +121,27 @@ private:
 
   /// All of it, or nothing: what it did before it was broken off would be in the mesh, but in no log and no report.
   void carry_out_whole(const Command& command) {
-    const std::size_t steps = sculptor_.history().number_of_undo_steps(), edits = result_.edits.size();
+    const auto was = sculptor_.history();
+    const std::size_t steps = was.number_of_undo_steps(), edits = result_.edits.size(),
+                      times = result_.nanoseconds.size();
+    const bool was_in_stroke = was.is_in_stroke();
     const std::size_t reached = result_.reached, blocked = result_.blocked, refused = result_.refused,
                       within_clearance = result_.within_clearance;
     try {
       carry_out(command);
     } catch (...) {
       result_.edits.resize(edits);
+      result_.nanoseconds.resize(times);
       result_.reached = reached, result_.blocked = blocked, result_.refused = refused;
       result_.within_clearance = within_clearance;
       try {
-        if (sculptor_.history().is_in_stroke()) // whose earlier lines an undo would take back, too
+        const auto now = sculptor_.history();
+        if (was_in_stroke || now.is_in_stroke()) // whose earlier lines an undo would take back, too
           result_.may_be_in_part = true;
-        else if (sculptor_.history().number_of_undo_steps() > steps)
+        else if (now.number_of_undo_steps() > steps)
           result_.may_be_in_part = !sculptor_.undo();
+        else if (now.number_of_undo_steps() < steps)
+          result_.may_be_in_part = !sculptor_.redo();
       } catch (const std::exception&) { // no memory for that, either
         result_.may_be_in_part = true;
       }
@@ -221,9 +228,14 @@ private:
   /// A move that has moved nothing may have ended a grab, and then tells that: the next drag begins anew.
   void carry_out_move(const Command& move, bool ends_grab, const After_command& after) {
     Move_lines lines(move, after);
-    carry_out_other(move, &lines);
-    if (!lines.end() && ends_grab)
-      after(lines.line_of({}));
+    try {
+      carry_out_other(move, &lines);
+      if (!lines.end() && ends_grab)
+        after(lines.line_of({}));
+    } catch (...) {
+      result_.may_be_in_part = true;
+      throw;
+    }
   }
 
   void carry_out_other(const Command& command, Move_lines* lines = nullptr) {

@@ -9,6 +9,8 @@
 
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
+#include <boost/iterator/function_output_iterator.hpp>
+
 #include <numeric>
 #include <unordered_map>
 
@@ -79,11 +81,12 @@ struct Pairs {
 };
 
 Pairs self_intersecting_pairs(const Mesh& mesh) {
-  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
-  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
-  Pairs result{pairs.size(), std::vector<bool>(mesh.num_faces(), false)};
-  for (const auto& [f, g] : pairs)
-    result.is_red[f] = result.is_red[g] = true;
+  Pairs result{0, std::vector<bool>(mesh.num_faces(), false)};
+  const auto add = [&](const std::pair<Mesh::Face_index, Mesh::Face_index>& pair) { // too many for a list
+    ++result.number;
+    result.is_red[pair.first] = result.is_red[pair.second] = true;
+  };
+  CGAL::Polygon_mesh_processing::self_intersections(mesh, boost::make_function_output_iterator(add));
   return result;
 }
 

@@ -73,7 +73,7 @@ Sculpted_mesh read_repaired(const examples::Mesh_file& file, const Arguments& ar
   }
   read.left_out = std::move(soup.left_out);
   read.mesh = make_surface<Mesh>(soup, parameters.delta_length);
-  read.is_changed = true;
+  read.is_changed = !report.steps.empty();
   return read;
 }
 

@@ -59,7 +59,8 @@ bool ends_within_move(const std::vector<Command>& script, const std::string& scr
   const bool is_move = std::any_of(script.begin(), script.end(), [&](const Command& c) {
     return c.kind == Command::Kind::move && c.line == log.passes.back().last_line;
   });
-  return is_move && log.commands[log.last_line->begin.commands].edit.kind == Edit_kind::stroke &&
+  const std::size_t first = log.last_line->begin.commands; // that it logged; of a line that did nothing there is none
+  return is_move && first < log.commands.size() && log.commands[first].edit.kind == Edit_kind::stroke &&
          log.commands.back().edit.kind != Edit_kind::end;
 }
 

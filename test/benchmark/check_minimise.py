@@ -5,6 +5,7 @@
 What "fails" here is known beforehand: that a drag of one vertex is blocked. One line is enough for that, and the two
 components that it goes between."""
 import json
+import os
 import pathlib
 import random
 import subprocess
@@ -72,6 +73,24 @@ def wrong_use(folder, mesh, script, faults):
             faults.append(f"wrong use, {words[1:]}: exit {done.returncode}, {done.stderr[-500:]}")
     if before != (mesh.read_bytes(), script.read_bytes(), sorted(folder.iterdir())):
         faults.append("wrong use has changed files")
+
+
+def killed(folder, mesh, script, faults):
+    """What it has started ends with it."""
+    sculpt, fifo = folder / "sleeping_sculpt", folder / "fifo"
+    os.mkfifo(fifo)
+    sculpt.write_text(f"#!/usr/bin/env python3\nimport time\nwith open({str(fifo)!r}, 'w') as told:\n"
+                      "    print('begins', file=told, flush=True)\n    time.sleep(60)\n    print('ends', file=told)\n")
+    sculpt.chmod(0o755)
+    words = [ROOT / "benchmark/robustness/minimise", sculpt, mesh, script, "--out", folder / "never"]
+    going = subprocess.Popen([sys.executable, *map(str, words)], stderr=subprocess.DEVNULL)
+    with open(fifo) as told:
+        began = told.readline()
+        going.kill()
+        going.wait()
+        left = told.read()  # until nobody has it open any more
+    if began != "begins\n" or left:
+        faults.append(f"killed: what it has started tells '{began}', then '{left}'")
 
 
 def places(folder, mesh, lines, faults):
@@ -162,6 +181,7 @@ def main():
         if len(drags) != 1 or mark not in drags[0]:
             faults.append(f"a push that stays: exit {stays.returncode}, {small}, {stays.stderr}")
         wrong_use(folder, mesh, script, faults)
+        killed(folder, mesh, script, faults)
         places(folder, mesh, lines, faults)
         shifts(folder, mesh, lines, faults)
         print(*faults, sep="\n")

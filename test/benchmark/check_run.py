@@ -155,6 +155,8 @@ def wrong_use(folder):
                                 ("--minutes", "-1", "--minutes"), ("--shards", "-1", "--shards"),
                                 ("--shards", "1000000000", "10000"), ("--pictures", "/proc", "can be written to"),
                                 ("--seed", "-5", "--seed"), ("--seed", "99999999999999999999", "--seed"),
+                                ("--seed", str(2**64 // 1000 - 1), "--seed"),  # a shard would get more than 2^64
+                                ("axis", "edits", "--tiny has nothing of edits"),
                                 ("--build", none, "no folder with a build"),
                                 ("--build", str(folder), "there is no program"),
                                 ("--profile", "nosuch", "no profile nosuch"),
@@ -163,6 +165,8 @@ def wrong_use(folder):
         done = run(folder / "wrong", "device", option, value)
         text = f"{option} {value}: exit {done.returncode}, {done.stderr[-500:]}"
         expect(done.returncode == 2 and said in done.stderr.splitlines()[-1], text)
+    listed = run(folder / "wrong", "edits", "--list")
+    expect(listed.returncode == 0 and "edits " in listed.stdout, f"edits --list: {listed.stderr}")
 
 
 def options_are_known():
@@ -422,7 +426,7 @@ sys.exit(done.returncode)
 def failing_case(out, folder):
     """What a program dumps is made small and stands on the page."""
     if not (BUILD / "examples/sculpt").exists():
-        print("not checked: failing cases, because sculpt is not built")
+        print("skipped: failing cases, because sculpt is not built")
         return
     build, case = folder / "planted", folder / "batch_7"
     for program, text in (("benchmark/robustness", PLANTED_ROBUSTNESS), ("examples/sculpt", PLANTED_SCULPT)):
@@ -452,17 +456,34 @@ def failing_case(out, folder):
     expect(mended.returncode == 0 and "batch_7" not in (out / "index.html").read_text(), f"mended, it ends with {mended.returncode}: {mended.stderr}")
 
 
+def status_of_jobs(cluster, forgotten):
+    """A job goes on until Slurm says otherwise: where it does not answer, that is no success."""
+    script = ROOT / "benchmark/profiles/slurm/slurm_status.sh"
+    for said, code, status in ((forgotten, 1, "success"), ("JobState=COMPLETED Reason=None", 0, "success"),
+                               ("JobState=TIMEOUT Reason=TimeLimit", 0, "failed"), ("", 1, "running"),
+                               ("slurm_load_jobs error: Unable to contact slurm controller", 1, "running"),
+                               *((f"   JobState={state} Reason=None", 0, "running")
+                                 for state in ("PENDING", "REQUEUE_HOLD", "STAGE_OUT", "SIGNALING", "RESIZING",
+                                               "STOPPED"))):
+        (cluster / "scontrol").write_text(f"#!/bin/bash\necho '{said}' >&{1 + code}\nexit {code}\n")
+        told = subprocess.run([str(script), "17"], capture_output=True, text=True,
+                              env={**os.environ, "PATH": f"{cluster}:{os.environ['PATH']}"}).stdout
+        expect(told == status + "\n", f"a job of which scontrol says '{said}': {told}")
+
+
 def few_jobs(out, folder):
     """With a cluster, shards that no longer fit are listed without a job each. Slurm is played by two scripts."""
     cluster = folder / "cluster"
     cluster.mkdir()
     (cluster / "sbatch").write_text(f'#!/bin/bash\necho "$*" >> {cluster}/jobs\nbash "${{!#}}" > {cluster}/log 2>&1\nwc -l < {cluster}/jobs\n')
-    (cluster / "scontrol").write_text("#!/bin/bash\n")  # it has forgotten the job, which has ended
+    forgotten = "slurm_load_jobs error: Invalid job id specified"  # the job has ended
+    (cluster / "scontrol").write_text(f"#!/bin/bash\necho '{forgotten}' >&2\nexit 1\n")
     for name in ("sbatch", "scontrol"):
         (cluster / name).chmod(0o755)
     words = [PYTHON, str(ROOT / "benchmark/run"), "--tiny", "--no-build", "--build", str(BUILD), "--out", str(out), "--profile", "slurm", "--shards", "4",
              "--minutes", "0.0001", "device"]
     done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "PATH": f"{cluster}:{os.environ['PATH']}"})
+    status_of_jobs(cluster, forgotten)
     jobs = (cluster / "jobs").read_text().splitlines()
     expect(done.returncode == 0 and "did not fit: 0/4, 1/4, 2/4, 3/4 of 4" in (out / "index.html").read_text(), f"on a cluster: exit {done.returncode}, {done.stderr}")
     expect(len(jobs) == 1 and "--mem=2000" in jobs[0], f"of 4 shards 1 uses up the minutes, but {len(jobs)} jobs were submitted: {jobs}")
@@ -473,7 +494,20 @@ def exit_codes(folder):
     kept = folder / "kept.off"
     kept.write_text("kept")
     ticks = ["haptic_ticks", "--level", "2", "--ticks", "10"]
+    mesh, script = folder / "grab.off", folder / "grab.script"
+    mesh.write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
+    grab = ["certify_ends", "--replay", str(mesh)]
+    for text, code, said in (("# a: b\nclearance 0x1p-40\ndrag 3 0 0 0x1p1\n", 0, "1 drags, 0 end too early"),
+                             *((f"drag {vertex} 0 0 2\n", 2, "the vertex is not a whole number below 4")
+                               for vertex in ("4", "-1", "0.5", "1e30")),
+                             ("drag x 0 0 2\n", 2, "'x' is not a finite number"), ("", 2, "has no drag")):
+        script.write_text(text)
+        done = subprocess.run([str(BUILD / "benchmark" / grab[0]), *grab[1:], "--script", str(script)],
+                              capture_output=True, text=True)
+        expect(done.returncode == code and said in done.stdout + done.stderr, f"a script {text!r}: {done}")
     for words, code, said in (([*ticks, "--depth", "-1000"], 2, "the hand's path"),
+                              (grab, 2, "--script"),
+                              ([*grab, "--script", str(folder / "nowhere.script")], 2, "cannot open the script"),
                               (["brush_dabs", "--mesh", str(folder / "nowhere.off")], 2, "nowhere.off"),
                               (["device_speed_error", "--nothing"], 2, "--nothing"),
                               ([*ticks, "--reach", "2e9"], 2, "reach"),

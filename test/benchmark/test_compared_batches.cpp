@@ -84,3 +84,24 @@ BOOST_AUTO_TEST_CASE(a_clearance_that_does_not_serve_is_counted_and_one_that_doe
   BOOST_TEST((narrow.script.find("\nclearance 0x") != std::string::npos));
   BOOST_TEST((usual.script.find("clearance") == std::string::npos));
 }
+
+// An ulp of numbers below 1 serves until a coordinate is past 1.
+BOOST_AUTO_TEST_CASE(a_batch_that_outgrows_its_clearance_keeps_what_it_has_made) {
+  Mesh mesh = meshes::to_mesh(meshes::torus(16, 9));
+  double largest = 0;
+  for (const Vertex_index v : mesh.vertices())
+    largest = std::max(largest, internal::largest_magnitude(vertex_coordinates(mesh, v)));
+  for (const Vertex_index v : mesh.vertices()) {
+    const auto p = vertex_coordinates(mesh, v);
+    mesh.point(v) = Point_3(p[0] / largest * 0.99, p[1] / largest * 0.99, p[2] / largest * 0.99);
+  }
+  Batch batch;
+  batch.count = 3000, batch.clearance = 0x1p-53;
+  Compared_batches::Counts counts;
+  const Compared_batches batches({right, right}, {}, Keep::what_fails);
+  const std::size_t drags = batches.make(mesh, batch, &Broad_phase_choice::drag_batch, "outgrown", counts).drags;
+  BOOST_TEST(0u < drags);
+  BOOST_TEST(drags < 3000u);
+  BOOST_TEST(counts.clearance_refused == 1u);
+  BOOST_TEST(counts.other_bits == 0u);
+}

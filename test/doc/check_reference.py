@@ -69,7 +69,7 @@ def internal_in_signatures(folder):
 
 
 if shutil.which("doxygen") is None:
-    print("reference: doxygen is not installed, so the reference is not checked; bash .ci/install_packages installs it")
+    print("skipped: the reference, because doxygen is not installed; bash .ci/install_packages installs it")
     sys.exit(SKIPPED)
 
 with tempfile.TemporaryDirectory() as folder:

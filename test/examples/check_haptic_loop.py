@@ -60,11 +60,11 @@ check(open(at("a.png"), "rb").read(8) == b"\x89PNG\r\n\x1a\n", "a picture")
 DRAW = os.path.join(SOURCE, "examples/haptic_loop/draw_trace.py")
 done = subprocess.run([sys.executable, DRAW, at("a.csv"), at("plots.png")], capture_output=True, text=True)
 if "No module named 'matplotlib'" in done.stderr:
-    print("the plots of a trace are not checked: python3-matplotlib is not installed")
+    print("skipped: the plots of a trace, because python3-matplotlib is not installed")
 else:
     check(done.returncode == 0 and open(at("plots.png"), "rb").read(8) == b"\x89PNG\r\n\x1a\n", f"plots of a trace: {done.stderr}")
     refused = subprocess.run([sys.executable, DRAW, at("a.json"), at("none.png")], capture_output=True, text=True)
-    check(refused.returncode == 2 and "has no column 't'" in refused.stderr,
+    check(refused.returncode == 2 and "there is no column 't'" in refused.stderr,
           f"what is no trace is refused: {refused.stderr}")
 numbers = [line.split() for line in open(MESH).read().split("\n") if line and not line.startswith("#")]
 corners = 2 + int(numbers[1][0])
@@ -136,6 +136,11 @@ for kind in ("nan", "jump", "stall", "singular", "torque"):
     check(report["valid"] is True, f"{kind}: the mesh is valid")
     last = rows_of(at("f.csv"))[-1]
     check(vector(last, "fx", "fy", "fz", "tau1", "tau2", "tau3") == [0] * 6, f"{kind} ends at zero")
+
+# A log that fails lets go in the run; no reading after that is replayed.
+run(MESH, "--no-wait", "--log", at("failed.log"), "--fault", "log@1.2", "--record", at("l.rec"), "-o", at("l.off"), code=8)
+run(MESH, "--replay", at("l.rec"), "-o", at("lr.off"))
+check(open(at("l.off")).read() == open(at("lr.off")).read(), "a replay of a run whose log failed has the same mesh")
 
 # A stiff and fast loop, on which a finger comes down 30 mm in 0.1 s: calm after half a second, or refused or a fault by
 # name; it gives no energy.

@@ -24,7 +24,7 @@ namespace {
 using Main = int (*)(int, char**, char**);
 Main main_of_the_program;
 
-constexpr int longest_request = 1 << 17; // bytes: more than what a socket's buffer takes as one message
+constexpr int longest_request = 1 << 18; // bytes: more than one message has by default (net.core.wmem_default, 212992)
 
 // Whether there is one: not once the client has closed its end.
 bool receive(int socket, std::string& request, int descriptors[2]) {
@@ -38,7 +38,7 @@ bool receive(int socket, std::string& request, int descriptors[2]) {
   message.msg_controllen = sizeof(control);
   const auto size = recvmsg(socket, &message, 0);
   const cmsghdr* const sent = CMSG_FIRSTHDR(&message);
-  if (size <= 0 || !sent || sent->cmsg_len != CMSG_LEN(2 * sizeof(int))) {
+  if (size <= 0 || (message.msg_flags & MSG_TRUNC) != 0 || !sent || sent->cmsg_len != CMSG_LEN(2 * sizeof(int))) {
     return false;
   }
   std::memcpy(descriptors, CMSG_DATA(sent), 2 * sizeof(int));

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs of a program that forks for each (fork_server.cpp): a run costs no loading of its libraries."""
 import array
+import contextlib
 import os
 import signal
 import socket
@@ -37,10 +38,12 @@ class Forking_program:
             code, was_asked = self.wait(patience), False
             if code is None:
                 was_asked = True
-                os.kill(child, signal.SIGTERM)
+                with contextlib.suppress(ProcessLookupError):  # it has ended meanwhile
+                    os.kill(child, signal.SIGTERM)
                 code = self.wait(grace)
                 if code is None:
-                    os.kill(child, signal.SIGKILL)
+                    with contextlib.suppress(ProcessLookupError):
+                        os.kill(child, signal.SIGKILL)
                     self.wait(None)
             screen.seek(0)
             return code, screen.read(), was_asked

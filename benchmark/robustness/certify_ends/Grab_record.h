@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "../../../examples/common/contents_of.h"
+#include "../../../examples/common/numbers.h"
 #include "sculpting/scene_parts.h"
 
 #include <haptic_sculpt/surface.h>
 
+#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace haptic_sculpt::benchmark {
@@ -61,25 +63,36 @@ struct Grab_record {
   static Grab_record read(const std::filesystem::path& off, const std::filesystem::path& script) {
     Grab_record record;
     record.mesh = read_surface<Mesh>(off);
-    std::ifstream lines(script);
+    std::istringstream lines(examples::contents_of<Error>(script.string(), "the script"));
     for (std::string line; std::getline(lines, line);) {
+      const auto refuse = [&](const std::string& why) {
+        throw Error("'" + script.string() + "' is not a script of one grab: " + line + why);
+      };
       std::istringstream words(line);
-      std::string op, number;
+      std::string op, word;
+      if (!(words >> op) || op[0] == '#')
+        continue;
       std::vector<double> numbers;
-      for (words >> op; words >> number;)
-        numbers.push_back(std::strtod(number.c_str(), nullptr));
+      while (words >> word) {
+        numbers.push_back(examples::number_of(word).value_or(INFINITY));
+        if (!std::isfinite(numbers.back()))
+          refuse(": '" + word + "' is not a finite number");
+      }
       if (op == "clearance" && numbers.size() == 1)
         record.clearance = numbers[0];
       else if (op == "delta" && numbers.size() == 1)
         record.delta = numbers[0];
       else if (op == "drag" && numbers.size() == 4) {
+        const std::size_t count = record.mesh.number_of_vertices();
+        if (!(numbers[0] >= 0 && numbers[0] < static_cast<double>(count) && std::trunc(numbers[0]) == numbers[0]))
+          refuse(": the vertex is not a whole number below " + std::to_string(count) + ", the number of vertices");
         record.vertex = Mesh::Vertex_index(static_cast<Mesh::size_type>(numbers[0]));
         record.targets.emplace_back(numbers[1], numbers[2], numbers[3]);
       } else if (op == "probe" && numbers.size() == 6) {
         record.start = {numbers[0], numbers[1], numbers[2]};
         record.targets.emplace_back(numbers[3], numbers[4], numbers[5]);
-      } else if (op.empty() || op[0] != '#')
-        throw Error("'" + script.string() + "' is not a script of one grab: " + line);
+      } else
+        refuse("");
     }
     if (record.targets.empty())
       throw Error("'" + script.string() + "' has no drag");

@@ -135,7 +135,8 @@ int main(int argc, char** argv) {
   app.add_flag("--verbose", options.is_verbose, "Tell of every end that is too early");
   auto* replayed =
       app.add_option("--replay", options.off, "NAME.off of a case written by --dump: makes its drags again");
-  app.add_option("--script", options.script, "NAME.script of it")->needs(replayed);
+  auto* script = app.add_option("--script", options.script, "NAME.script of it")->needs(replayed);
+  replayed->needs(script);
   Benchmark_program program("certify_ends", app, "scene");
   return program.run(argc, argv, [&](Promises& promises) {
     if (!options.dump.empty())

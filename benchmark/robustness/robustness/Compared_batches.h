@@ -14,7 +14,7 @@ constexpr const char* other_bits_line = "# other broad phases lead elsewhere\n";
 class Compared_batches {
 public:
   struct Counts {
-    std::size_t compared = 0, other_bits = 0, clearance_refused = 0; ///< batches
+    std::size_t compared = 0, other_bits = 0, clearance_refused = 0; ///< batches; the last: at first, or later
 
     Counts& operator+=(const Counts& c) {
       compared += c.compared, other_bits += c.other_bits, clearance_refused += c.clearance_refused;
@@ -28,7 +28,7 @@ public:
       : broad_phases_(std::move(broad_phases)), folder_(std::move(folder)), keep_(keep) {}
 
   /// One batch. \param make how a broad phase makes it \param name of its files \return what the first counts; nothing
-  /// of a batch whose clearance does not serve
+  /// of a batch whose clearance does not serve the mesh, and as much as it made of one that has outgrown it
   template <class Tally>
   Tally make(const Mesh& given, const Batch& batch, Batch_maker<Tally> Broad_phase_choice::*make,
              const std::string& name, Counts& counts) const {
@@ -43,6 +43,7 @@ public:
       for (std::size_t i = 1; i < broad_phases_.size(); ++i)
         is_same &= (broad_phases_[i].*make)(mesh, only_bits, Keep::what_fails).bits == first.bits;
       counts.compared += broad_phases_.size() > 1, counts.other_bits += !is_same;
+      counts.clearance_refused += first.has_outgrown_clearance;
       if (folder_.empty())
         return first.tally;
       if (!is_same && first.script.empty())

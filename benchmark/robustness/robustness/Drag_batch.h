@@ -20,18 +20,24 @@ public:
   Drag_batch(const Mesh& mesh, const Batch& batch)
       : batch_(batch), mesh_(mesh), sculptor_(mesh_, batch.parameters()), places_(mesh_, batch.seed) {}
 
-  /// \throw Invalid_parameter where the clearance no longer serves
   Batch_made<Drag_tally> run(Keep keep) {
-    if (batch_.is_of_a_hand)
-      run_strokes(batch_.count);
-    else
-      run_odd_drags(batch_.count);
+    bool has_outgrown_clearance = false;
+    try {
+      if (batch_.is_of_a_hand)
+        run_strokes(batch_.count);
+      else
+        run_odd_drags(batch_.count);
+    } catch (const Invalid_parameter&) {
+      if (!batch_.clearance)
+        throw;
+      has_outgrown_clearance = true;
+    }
     if (!batch_.has_only_bits)
       finish();
     bits_.add(mesh_);
     const bool is_kept = keep == Keep::all || tally_.is_any_promise_broken();
     return {tally_, bits_.value(), is_kept ? script_.text(batch_.opening()) : std::string(),
-            keep == Keep::all ? mesh_ : Mesh()};
+            keep == Keep::all ? mesh_ : Mesh(), has_outgrown_clearance};
   }
 
 private:

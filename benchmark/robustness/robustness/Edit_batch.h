@@ -26,26 +26,24 @@ public:
       , places_(mesh_, batch.seed)
       , vertices_at_first_(mesh.number_of_vertices()) {}
 
-  /// \throw Invalid_parameter where the clearance no longer serves
   Batch_made<Edit_tally> run(Keep keep) {
     std::optional<test::Mesh_snapshot> input;
     if (!batch_.has_only_bits)
       input = test::snapshot(sculptor_);
-    std::size_t next_check = batch_.validate_every;
-    while (tally_.edits < batch_.count) {
-      begin_or_end_stroke();
-      one();
-      if (batch_.validate_every != 0 && tally_.edits >= next_check) { // a run of undos may have gone past it by a few
-        check();
-        next_check += batch_.validate_every;
-      }
+    bool has_outgrown_clearance = false;
+    try {
+      make_edits();
+    } catch (const Invalid_parameter&) {
+      if (!batch_.clearance)
+        throw;
+      has_outgrown_clearance = true;
     }
     end_stroke();
     check();
     for (script_.add("redo"); sculptor_.redo(); script_.add("redo"))
       ;
     bits_.add(mesh_);
-    Batch_made<Edit_tally> made{{}, bits_.value(), {}, keep == Keep::all ? mesh_ : Mesh()};
+    Batch_made<Edit_tally> made{{}, bits_.value(), {}, keep == Keep::all ? mesh_ : Mesh(), has_outgrown_clearance};
     if (!batch_.has_only_bits)
       undo_and_redo_all(*input);
     if (keep == Keep::all || tally_.is_any_promise_broken())
@@ -70,6 +68,18 @@ private:
   std::optional<Grab<Sculptor_type>> grab_; ///< kept in hand while other edits go on
   std::optional<Stroke<Sculptor_type>> stroke_;
   Edit_tally tally_;
+
+  void make_edits() {
+    std::size_t next_check = batch_.validate_every;
+    while (tally_.edits < batch_.count) {
+      begin_or_end_stroke();
+      one();
+      if (batch_.validate_every != 0 && tally_.edits >= next_check) { // a run of undos may have gone past it by a few
+        check();
+        next_check += batch_.validate_every;
+      }
+    }
+  }
 
   void undo_and_redo_all(const test::Mesh_snapshot& input) {
     const test::Mesh_snapshot end = test::snapshot(sculptor_);

@@ -45,13 +45,14 @@ struct Batch_made {
   std::uint64_t bits = 0; ///< of all results and of the mesh at the end
   std::string script; ///< for `sculpt`; empty unless a promise is broken, or it was asked for
   Mesh end; ///< the mesh afterwards; empty unless it was asked for
+  bool has_outgrown_clearance = false; ///< it has ended there, before the edit that was refused for that
 };
 
 /// Whether the script and the mesh at the end are asked for.
 enum class Keep { what_fails, all };
 
 /// One source for each of three broad phases instantiates these. \throw Invalid_parameter where the clearance does not
-/// serve the mesh, or what has become of it
+/// serve the mesh
 template <class Broad_phase>
 Batch_made<Drag_tally> drag_batch(const Mesh& mesh, const Batch& batch, Keep keep);
 template <class Broad_phase>

@@ -54,7 +54,9 @@ inline std::size_t orient_components(Face_soup& soup) {
     throw Invalid_surface("the list of faces", std::move(report));
   return internal::turn_components(soup);
 }
-/// The same of a mesh, in place. \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
+/// The same of a mesh, in place. A half-edge of what is turned keeps its properties, and has another target: what it
+/// held of its target's corner of the face is that of the corner before now. \tparam Mesh
+/// `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 template <class Mesh>
 std::size_t orient_components(Mesh& mesh) {
   const internal::Rounding_to_nearest rounding;

@@ -252,7 +252,7 @@ BOOST_AUTO_TEST_CASE(a_journal_that_nobody_writes_ends_the_run) {
   BOOST_TEST((d.loop.interaction().fault() == Loop_fault::none));
 }
 
-// Of faults the first stays: what is lost is told after it has been seen to.
+// Of faults the first stays: what is lost is said after it has been seen to.
 BOOST_AUTO_TEST_CASE(a_journal_that_overruns_beside_another_fault_ends_the_run_after_the_restart) {
   for (const bool is_restarted_at_once : {false, true}) {
     Queue d(true);

@@ -75,8 +75,11 @@ public:
         do_this(f, g);
     };
     const auto pairs_between = [&](const Boxes& a, const Boxes& b) {
-      auto to_a = pointers_to(a), to_b = pointers_to(b);
-      CGAL::box_intersection_d(to_a.begin(), to_a.end(), to_b.begin(), to_b.end(), call, cutoff);
+      Boxes both = a; // CGAL parts boxes that begin alike by their addresses: in one list that is their order
+      both.insert(both.end(), b.begin(), b.end());
+      auto pointers = pointers_to(both);
+      const auto middle = pointers.begin() + static_cast<std::ptrdiff_t>(a.size());
+      CGAL::box_intersection_d(pointers.begin(), middle, middle, pointers.end(), call, cutoff);
     };
     pairs_within(plain, call, run);
     if (at_hubs.empty())
