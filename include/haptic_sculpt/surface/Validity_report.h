@@ -34,8 +34,12 @@ struct Validity_report {
   double delta = 0;
 
   /// Half-edges whose pointers contradict each other, of edges without faces, into a vertex that names none of them,
-  /// and not on the face they name. Where there are any, nothing else was looked at.
+  /// and not on the face they name. Where there are any, or any of the next two, nothing else was looked at.
   std::vector<Halfedge_index> inconsistent_halfedges;
+  /// Faces that name no half-edge, or one of another face.
+  std::vector<Face_index> inconsistent_faces;
+  /// Vertices that name a half-edge into another vertex.
+  std::vector<Vertex_index> inconsistent_vertices;
   /// Vertices with a coordinate that is infinite or not a number.
   std::vector<Vertex_index> non_finite_vertices;
   /// Faces with more or fewer than three corners.
@@ -77,16 +81,18 @@ struct Validity_report {
 
   /// Number of offending elements of all kinds; at least this many if `has_more_intersections`.
   std::size_t number_of_faults() const {
-    return inconsistent_halfedges.size() + non_finite_vertices.size() + non_triangular_faces.size() +
-           degenerate_faces.size() + low_faces.size() + boundary_edges.size() + non_manifold_edges.size() +
-           inconsistently_oriented_edges.size() + non_manifold_vertices.size() + isolated_vertices.size() +
-           coincident_vertices.size() + intersecting_faces.size();
+    return inconsistent_halfedges.size() + inconsistent_faces.size() + inconsistent_vertices.size() +
+           non_finite_vertices.size() + non_triangular_faces.size() + degenerate_faces.size() + low_faces.size() +
+           boundary_edges.size() + non_manifold_edges.size() + inconsistently_oriented_edges.size() +
+           non_manifold_vertices.size() + isolated_vertices.size() + coincident_vertices.size() +
+           intersecting_faces.size();
   }
 
   /// Whether repair() is worth a try: there are faults that it looks after. A low triangle it leaves as it is, and of a
   /// coordinate that is no number it knows nothing.
   bool is_repairable() const {
-    return inconsistent_halfedges.empty() && non_finite_vertices.empty() && number_of_faults() > low_faces.size();
+    return inconsistent_halfedges.empty() && inconsistent_faces.empty() && inconsistent_vertices.empty() &&
+           non_finite_vertices.empty() && number_of_faults() > low_faces.size();
   }
 
   /// What does not make a surface invalid and may be meant or not, in plain words, one kind a line, the first `named`
@@ -116,8 +122,10 @@ struct Validity_report {
                 (reader == Reader::user ? cure : by_cgal) + '\n';
     };
     const std::string low = "face(s) with an altitude below delta = " + internal::number(delta);
-    list(inconsistent_halfedges, "half-edge(s) with contradictory connectivity", "Make the mesh anew.",
-         "Rebuild the mesh from its points and faces (PMP::polygon_soup_to_polygon_mesh).");
+    const char* const rebuild = "Rebuild the mesh from its points and faces (PMP::polygon_soup_to_polygon_mesh).";
+    list(inconsistent_halfedges, "half-edge(s) with contradictory connectivity", "Make the mesh anew.", rebuild);
+    list(inconsistent_faces, "face(s) that name no half-edge of theirs", "Make the mesh anew.", rebuild);
+    list(inconsistent_vertices, "vertex(es) that name a half-edge into another", "Make the mesh anew.", rebuild);
     list(non_finite_vertices, "vertex(es) with a coordinate that is infinite or not a number",
          "Give them finite coordinates.", "Give them finite coordinates.");
     list(non_triangular_faces, "face(s) that are not triangles", "Divide them into triangles.",

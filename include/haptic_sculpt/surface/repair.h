@@ -81,7 +81,7 @@ Repair_report repair(Mesh& mesh, const Repair_parameters& parameters = {}) {
   static_assert(internal::Is_mesh_of_doubles<Mesh>::value,
                 "repair(mesh): it must be a CGAL::Surface_mesh whose points have double coordinates");
   const internal::Rounding_to_nearest rounding;
-  if (!internal::inconsistent_halfedges(mesh).empty())
+  if (!internal::inconsistent_elements(mesh).empty())
     throw Error("cannot repair: the half-edges of the mesh contradict each other; give its points and faces as a "
                 "Face_soup");
   Face_soup result;

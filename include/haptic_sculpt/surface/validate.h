@@ -39,12 +39,23 @@ void find_halfedges_beside_their_faces(const Mesh& mesh, std::vector<typename Me
       found.push_back(h);
 }
 
-/// The half-edges of a mesh whose pointers lead nowhere, to something removed, or contradict each other, those of edges
-/// without faces, those that their target does not know, and those that name a face on whose boundary they are not.
+/// What contradicts itself in a mesh.
+template <class Mesh>
+struct Inconsistent_elements {
+  /// Those whose pointers lead nowhere, to something removed, or contradict each other, those of edges without faces,
+  /// those that their target does not know, and those that name a face on whose boundary they are not.
+  std::vector<typename Mesh::Halfedge_index> halfedges;
+  /// Those that name no half-edge of theirs. Of a vertex that names none the half-edges tell.
+  std::vector<typename Mesh::Face_index> faces;
+  std::vector<typename Mesh::Vertex_index> vertices;
+
+  bool empty() const { return halfedges.empty() && faces.empty() && vertices.empty(); }
+};
+
 /// Needs no trust in any pointer: each index is checked before it is followed.
 template <class Mesh>
-std::vector<typename Mesh::Halfedge_index> inconsistent_halfedges(const Mesh& mesh) {
-  std::vector<typename Mesh::Halfedge_index> found;
+Inconsistent_elements<Mesh> inconsistent_elements(const Mesh& mesh) {
+  Inconsistent_elements<Mesh> found;
   const auto lives = [&](const auto index) { return mesh.has_valid_index(index) && !mesh.is_removed(index); };
   for (const auto h : mesh.halfedges()) {
     const auto n = mesh.next(h), p = mesh.prev(h);
@@ -54,18 +65,16 @@ std::vector<typename Mesh::Halfedge_index> inconsistent_halfedges(const Mesh& me
                       (f == Mesh::null_face() ? mesh.face(mesh.opposite(h)) != f : lives(f)) &&
                       mesh.halfedge(mesh.target(h)) != Mesh::null_halfedge();
     if (!good)
-      found.push_back(h);
+      found.halfedges.push_back(h);
   }
   for (const auto f : mesh.faces())
     if (const auto h = mesh.halfedge(f); !lives(h) || mesh.face(h) != f)
-      found.push_back(h);
+      found.faces.push_back(f);
   for (const auto v : mesh.vertices())
     if (const auto h = mesh.halfedge(v); h != Mesh::null_halfedge() && (!lives(h) || mesh.target(h) != v))
-      found.push_back(h);
+      found.vertices.push_back(v);
   if (found.empty())
-    find_halfedges_beside_their_faces(mesh, found);
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+    find_halfedges_beside_their_faces(mesh, found.halfedges);
   return found;
 }
 
@@ -237,11 +246,15 @@ Validity_report validate(const Mesh& mesh, double delta = 0,
                          std::size_t most_intersections = Validity_report::default_most_intersections) {
   using Kernel = typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel;
   static_assert(std::is_same_v<typename Kernel::FT, double>, "validate() decides on coordinates of type double");
-  if (auto wrong = internal::inconsistent_halfedges(mesh); !wrong.empty()) {
+  if (const auto wrong = internal::inconsistent_elements(mesh); !wrong.empty()) {
     Validity_report report;
     report.delta = delta;
-    for (const auto h : wrong)
+    for (const auto h : wrong.halfedges)
       report.inconsistent_halfedges.emplace_back(static_cast<std::size_t>(h));
+    for (const auto f : wrong.faces)
+      report.inconsistent_faces.emplace_back(static_cast<std::size_t>(f));
+    for (const auto v : wrong.vertices)
+      report.inconsistent_vertices.emplace_back(static_cast<std::size_t>(v));
     return report;
   }
   std::vector<Face_soup::Index> face_name;

@@ -88,7 +88,7 @@ std::vector<typename Mesh::Vertex_index> written_order(const Mesh& mesh, const W
 /// The mesh as it will be written. \throw Write_error if no format can hold it
 template <class Mesh>
 Face_soup compacted(const Mesh& mesh, const Write_parameters& parameters) {
-  if (!inconsistent_halfedges(mesh).empty())
+  if (!inconsistent_elements(mesh).empty())
     throw Write_error("the connectivity of the mesh contradicts itself; see validate()");
   Face_soup soup = face_soup(mesh);
   const auto order = written_order(mesh, parameters);

@@ -133,6 +133,18 @@ BOOST_AUTO_TEST_CASE(inconsistent_connectivity) {
   mesh.set_next(bare, mesh.opposite(bare));
   mesh.set_next(mesh.opposite(bare), bare);
   BOOST_TEST(validate(mesh).inconsistent_halfedges.size() == 2u);
+  mesh = to_mesh(meshes::cube());
+  const auto number = mesh.number_of_faces();
+  mesh.add_face(), mesh.add_face(); // without half-edges
+  mesh.set_halfedge(F(3), mesh.halfedge(F(4)));
+  mesh.set_halfedge(V(2), mesh.halfedge(V(5)));
+  const auto report = validate(mesh);
+  BOOST_TEST(report.inconsistent_halfedges.empty());
+  BOOST_TEST((report.inconsistent_faces == std::vector{F(3), F(number), F(number + 1)}));
+  BOOST_TEST((report.inconsistent_vertices == std::vector{V(2)}));
+  BOOST_TEST(report.number_of_faults() == 4u);
+  BOOST_TEST(!report.is_repairable());
+  BOOST_TEST(report.message().find("name") != std::string::npos);
 }
 
 // A list of the faces of such a mesh is that of a closed one.

@@ -159,7 +159,7 @@ private:
       orient_components(one);
       orient_components(other);
       try {
-        if (!PMP::corefine_and_compute_union(one, other, sum) || !inconsistent_halfedges(sum).empty()) {
+        if (!PMP::corefine_and_compute_union(one, other, sum) || !inconsistent_elements(sum).empty()) {
           ++failed;
           continue;
         }

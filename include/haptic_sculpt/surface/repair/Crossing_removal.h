@@ -39,7 +39,7 @@ public:
       for (int rings = 0; rings < most_rings && !meeting.empty();) {
         const std::size_t before = meeting.size();
         Work_mesh trial = mesh;
-        if (cut_out(trial, meeting, rings, keeps_genus) && close(trial) && inconsistent_halfedges(trial).empty()) {
+        if (cut_out(trial, meeting, rings, keeps_genus) && close(trial) && inconsistent_elements(trial).empty()) {
           trial.collect_garbage();
           mesh = std::move(trial);
           meeting = meeting_faces(mesh);

@@ -101,7 +101,7 @@ private:
         steps.push_back(function(copy));
         if (!steps.back().did_something())
           return;
-        if (!inconsistent_halfedges(copy).empty()) {
+        if (!inconsistent_elements(copy).empty()) {
           steps.back() = {kind, {}, 0, "the half-edges contradict each other"};
           return;
         }
