@@ -29,6 +29,7 @@ public:
     }
   }
   void break_off() const {} ///< what is thrown ends the script
+  bool has_moved() const { return has_moved_; }
   /// The move is done. \return whether it has told anything \throw what telling has thrown
   bool end() {
     if (failure_)

@@ -233,7 +233,7 @@ private:
       if (!lines.end() && ends_grab)
         after(lines.line_of({}));
     } catch (...) {
-      result_.may_be_in_part = true;
+      result_.may_be_in_part = lines.has_moved();
       throw;
     }
   }

@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import random
+import select
 import subprocess
 import sys
 import tempfile
@@ -84,7 +85,10 @@ def killed(folder, mesh, script, faults):
     sculpt.chmod(0o755)
     words = [ROOT / "benchmark/robustness/minimise", sculpt, mesh, script, "--out", folder / "never"]
     going = subprocess.Popen([sys.executable, *map(str, words)], stderr=subprocess.DEVNULL)
-    with open(fifo) as told:
+    with open(os.open(fifo, os.O_RDONLY | os.O_NONBLOCK)) as told:
+        while going.poll() is None and not select.select([told], [], [], 0.1)[0]:
+            pass
+        os.set_blocking(told.fileno(), True)
         began = told.readline()
         going.kill()
         going.wait()

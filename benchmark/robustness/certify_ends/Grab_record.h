@@ -86,10 +86,16 @@ struct Grab_record {
         const std::size_t count = record.mesh.number_of_vertices();
         if (!(numbers[0] >= 0 && numbers[0] < static_cast<double>(count) && std::trunc(numbers[0]) == numbers[0]))
           refuse(": the vertex is not a whole number below " + std::to_string(count) + ", the number of vertices");
-        record.vertex = Mesh::Vertex_index(static_cast<Mesh::size_type>(numbers[0]));
+        const Mesh::Vertex_index v(static_cast<Mesh::size_type>(numbers[0]));
+        if (!record.targets.empty() && record.vertex != v)
+          refuse(": it is another grab than before");
+        record.vertex = v;
         record.targets.emplace_back(numbers[1], numbers[2], numbers[3]);
       } else if (op == "probe" && numbers.size() == 6) {
-        record.start = {numbers[0], numbers[1], numbers[2]};
+        const Point_3 start(numbers[0], numbers[1], numbers[2]);
+        if (!record.targets.empty() && (record.vertex.is_valid() || record.start != start))
+          refuse(": it is another grab than before");
+        record.start = start;
         record.targets.emplace_back(numbers[3], numbers[4], numbers[5]);
       } else
         refuse("");

@@ -16,7 +16,7 @@ enum class Drag_end : std::uint8_t {
   leg_limit,   ///< as many legs were made as one drag may make; the next drag to the same target goes on
   refused,     ///< a probe that could not begin where it is
   stuck,       ///< the slide gave up on the way: nothing is said about what is nearer
-  work_limit,  ///< as much work was done as one drag may do; the next drag to the same or a near target goes on
+  work_limit,  ///< as much work was done as one drag may do; of a slide the next one to a near target goes on
   stale ///< the vertex has been removed, or another Grab has the hand; a probe's mesh has changed: nothing was moved
 };
 

@@ -265,12 +265,13 @@ BOOST_AUTO_TEST_CASE(a_journal_that_overruns_beside_another_fault_ends_the_run_a
     BOOST_REQUIRE(d.journal.has_overrun());
     BOOST_TEST((d.loop.interaction().fault() == (is_restarted_at_once ? Loop_fault::log : Loop_fault::late)));
     d.loop.restart();
-    d.tick(), d.tick();
-    BOOST_TEST((d.loop.interaction().fault() == Loop_fault::log));
-    d.loop.restart();
-    for (int k = 0; k < 10; ++k)
+    int told = 0;
+    for (int k = 0; k < 10; ++k) {
       d.tick();
-    BOOST_TEST((d.loop.interaction().fault() == Loop_fault::none));
+      told += d.loop.interaction().fault() == Loop_fault::log;
+      d.loop.restart();
+    }
+    BOOST_TEST(told == (is_restarted_at_once ? 0 : 1));
   }
 }
 

@@ -52,9 +52,11 @@ public:
     const auto& made = loop_->tick(reading);
     if (journal_ != nullptr) {
       journal_->end_tick(ticks_);
-      has_told_overrun_ = has_told_overrun_ || made.fault == Loop_fault::log;
-      if (journal_->has_overrun() && !has_told_overrun_)
+      if (journal_->has_overrun() && !has_told_overrun_) {
         loop_->end_by(Loop_fault::log);
+        has_told_overrun_ = loop_->interaction().fault() == Loop_fault::log;
+      }
+      has_passed_on_ = made.fault == Loop_fault::log;
     }
     if (feed_ != nullptr) {
       pass_faces_on();
@@ -95,7 +97,8 @@ private:
   Command_queue<Scene>* queue_;
   Feed* feed_;
   Edit_journal* journal_;
-  bool has_told_overrun_ = false; ///< a tick had the fault, since this journal is kept
+  bool has_told_overrun_ = false; ///< the loop has ended by this journal's
+  bool has_passed_on_ = false;    ///< and the last tick says so
   std::uint64_t ticks_ = 0;
   std::uint32_t scenes_ = 0;               ///< entered before the one that is sculpted now
   std::vector<Loop_command<Scene>> tasks_; ///< under way, in the order of the commands
@@ -185,7 +188,8 @@ private:
     case Kind::zoom:
       loop_->zoom(command.factor);
       break;
-    case Kind::restart:
+    case Kind::restart: // of another fault: who asked has not seen this one
+      has_told_overrun_ = has_told_overrun_ && (has_passed_on_ || loop_->interaction().fault() != Loop_fault::log);
       loop_->restart();
       break;
     case Kind::task:

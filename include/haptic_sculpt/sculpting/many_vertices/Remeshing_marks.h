@@ -61,14 +61,14 @@ public:
 
   /// Constrains the edges of the range at which the normals of the faces differ by more than this angle.
   void constrain_features(const Scaled_points<Mesh>& points, double degrees) {
-    constexpr double rounding = 0x1p-40; // of the two normals, their product and the cosine, and more
-    const double cosine = std::cos(degrees * (CGAL_PI / 180)) - rounding;
+    constexpr double rounding = 0x1p-40; // rad: of the two normals and their products, and more
+    const double largest = degrees * (CGAL_PI / 180) + rounding;
     for (const Edge_index e : mesh_->edges()) {
       if (!is_inside(e))
         continue;
       const Vector n = normalized(normal(points, mesh_->halfedge(e))),
                    m = normalized(normal(points, mesh_->opposite(mesh_->halfedge(e))));
-      if (quick_dot(n, m) < cosine)
+      if (std::atan2(length(cross(n, m)), dot(n, m)) > largest)
         constrain(e, {true, true});
     }
   }

@@ -23,22 +23,21 @@ public:
   /// A drag begins. One without a bound begins its searches anew.
   void begin(bool is_bounded) {
     if (!is_cut_ || !is_bounded)
-      is_begun_ = false;
-    is_cut_ = false;
+      forget();
+    is_cut_ = has_searched_ = false;
     last_due_.reset();
     for (auto& trials : trials_)
       trials.counted = 0;
   }
   /// The vertex rests on its way to the target.
   void search_at(const Vector& place, const Vector& target, const Slide_lengths& lengths) {
-    if (is_begun_ && place == place_) {
-      is_for_other_ = !is_alike(target, target_, lengths);
-      return;
+    if (!is_begun_ || place != place_) {
+      forget();
+      is_begun_ = true;
+      place_ = place, target_ = target;
     }
-    forget();
-    is_begun_ = true;
-    place_ = place;
-    target_ = target;
+    has_searched_ = true;
+    is_for_other_ = !is_alike(target, target_, lengths);
   }
   /// To be asked once before each trial of a search. False where an earlier drag has made it, and where the work is
   /// spent.
@@ -73,9 +72,9 @@ public:
   /// Whether the search was begun by an earlier drag.
   bool is_resumed(Search search) const { return trials_[static_cast<std::size_t>(search)].first_due != 0; }
   /// Whether a trial had to be left out, so that nothing is known of what it would have found.
-  bool has_left_out() const { return has_left_out_; }
-  /// Whether what was tried was tried for the target of this drag, or one that is as good.
-  bool is_for_its_target() const { return !is_mixed_ && !is_for_other_; }
+  bool has_left_out() const { return has_searched_ && has_left_out_; }
+  /// Whether all that was tried, if anything, was tried for the target of this drag, or one that is as good.
+  bool is_for_its_target() const { return !has_searched_ || (!is_mixed_ && !is_for_other_); }
 
   /// The search has found nothing. Kept in mind only where all of it was tried, for this target.
   void note(Search_memory& memory) const {
@@ -91,6 +90,7 @@ private:
   using Trial = std::pair<Search, std::size_t>;
 
   bool is_begun_ = false, is_cut_ = false, has_left_out_ = false;
+  bool has_searched_ = false; ///< this drag has come to where it is
   bool is_for_other_ = false; ///< this drag's target is not the one that the round was begun for
   bool is_mixed_ = false;     ///< a trial was made for another target
   Vector place_{}, target_{};
