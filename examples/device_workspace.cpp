@@ -53,7 +53,7 @@ void figures(Device_description<double> description, const char* name, int per_j
   const auto samples =
       sample_workspace(parameters, per_joint, Workspace_limits<double>(),
                        [](const auto& p, const auto& theta) { return forward_by_all_modes(p, theta); });
-  Device_vector<double> low = Device_vector<double>::Constant(1), high = -low;
+  Device_vector<double> low = Device_vector<double>::Constant(INFINITY), high = -low;
   Range condition, force, light, heavy, model_difference, tilt;
   int inside = 0;
   for (const auto& sample : samples) {

@@ -164,7 +164,8 @@ json answer_inverse(const Device_parameters<double>& parameters, const json& req
         nearest = distance, pose = Outcome<Device_pose<double>>(other);
     }
   }
-  demand(pose, "no joint angles bring the platform there (shortfall in m along the way from the seed)");
+  demand(pose,
+         "no joint angles within `angle_limits` bring the platform there (shortfall in m along the way from the seed)");
   return {{"ok", true}, {"theta", to_json(pose->theta)}};
 }
 

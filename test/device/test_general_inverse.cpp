@@ -50,6 +50,25 @@ BOOST_AUTO_TEST_CASE(inverse_of_the_general_form_finds_what_a_denser_search_find
   }
 }
 
+// Angles of half a turn, of which rounding makes one turn or the other.
+BOOST_AUTO_TEST_CASE(inverse_of_the_general_form_gives_one_pose_once) {
+  Device_description<double> d = named_design<double>(Named_design::D1, Device_form::general);
+  d.least_angle.setConstant(-100), d.greatest_angle.setConstant(100);
+  const Device_parameters<double> parameters(d);
+  int found = 0;
+  for (const Vector& theta : {Vector(EIGEN_PI, 1.2, 0.8), Vector(EIGEN_PI, EIGEN_PI, EIGEN_PI)}) {
+    const auto pose = forward_by_all_modes(parameters, theta);
+    BOOST_REQUIRE(static_cast<bool>(pose));
+    const auto all = general_inverse_all(parameters, pose->position);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        BOOST_TEST(
+            ((all[i].elbows - all[j].elbows).norm() > 1e-6 || (all[i].orientation - all[j].orientation).norm() > 1e-6));
+    found += static_cast<int>(all.size());
+  }
+  BOOST_TEST(found > 0);
+}
+
 // Limits count angles as given: where they ask for the turn beside, angles are of that.
 BOOST_AUTO_TEST_CASE(inverse_of_the_general_form_gives_angles_within_limits_beyond_a_half_turn) {
   Device_description<double> d = named_design<double>(Named_design::D1, Device_form::general);

@@ -68,6 +68,25 @@ BOOST_AUTO_TEST_CASE(whatever_comes_in_nothing_but_numbers_comes_out) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_overflows_at_a_regular_pose_is_not_named_singular) {
+  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
+    const Device_parameters<double> parameters(named_design<double>(Named_design::D1, form));
+    const auto pose = forward_kinematics(parameters, Vector(0.9, 1, 1.1));
+    BOOST_REQUIRE(static_cast<bool>(pose));
+    const Vector none = Vector::Zero(), huge(1e155, 0, 0);
+    const auto status = [&](const Vector& rate, const Vector& torque) {
+      return forward_dynamics(parameters, Dynamics_model::spatial, *pose, rate, torque).status();
+    };
+    for (const double bad : {std::nan(""), HUGE_VAL, 1e308})
+      BOOST_TEST((status(none, Vector(bad, 0, 0)) == Device_status::not_finite));
+    BOOST_TEST((status(huge, none) == Device_status::not_finite));
+    BOOST_TEST((spatial_inverse_dynamics(parameters, *pose, huge, none).status() == Device_status::not_finite));
+    BOOST_TEST((dynamics(parameters, Dynamics_model::spatial, *pose, Vector(1e160, 0, 0)).status() ==
+                Device_status::not_finite));
+    BOOST_TEST((status(none, none) == Device_status::success));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(elbows_on_a_line_or_in_one_point_are_named_singular) {
   Device_description<double> d;
   d.base_radius = 0.02;

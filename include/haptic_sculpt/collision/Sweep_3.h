@@ -34,7 +34,7 @@ public:
   Counters* counters() const { return counters_; } ///< where is counted; nullptr: nowhere
 
   /// The first impact, or nothing when the closed sets do not meet.
-  /// \pre all coordinates are finite; the ends of a still edge, of an edge that a moving face has, differ
+  /// \pre all coordinates are finite. An edge may be a point.
   result_type operator()(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b,
                          const Point_3& c) const {
     [[maybe_unused]] const Mode rounding{};
@@ -69,8 +69,6 @@ private:
                                                const Point_3& c) {
     const internal::Sweep_points points = internal::sweep_points(s, t, a, b, c);
     CGAL_precondition(internal::are_finite(points));
-    CGAL_precondition(feature != Impact_feature::edge_edge || b != c);
-    CGAL_precondition(feature != Impact_feature::face_vertex || a != b);
     return points;
   }
 };

@@ -5,14 +5,16 @@ namespace haptic_sculpt {
 
 /// How a question to the mechanism ended. Everything but `success` is an answer too, never an exception.
 enum class Device_status {
-  success,      ///< there is a value; the shortfall is 0
-  not_finite,   ///< an input is infinite or not a number, or so large that the answer overflows
-  unreachable,  ///< no joint angles (inverse) or no apex (forward) exist; the shortfall says by how much
+  success,     ///< there is a value; the shortfall is 0
+  not_finite,  ///< an input is infinite or not a number, or so large that the answer overflows
+  unreachable, ///< no apex (forward) or joint angles (inverse) exist, or none on the straight way from the pose before;
+               ///< the shortfall says how far that is
   no_real_mode, ///< general form: these joint angles have no real assembly mode
   singular,     ///< the answer is not unique or not differentiable here: elbows on a line, a matrix without an inverse
   undecided,    ///< no mode was followed that far; forward_by_all_modes() (device/forward_by_all_modes.h) decides
-  mode_lost,    ///< the way from the previous pose meets a singular pose, where the mode to follow ceases to exist
-  diverged      ///< an iteration did not settle; the shortfall is the residual it was left with
+  mode_lost, ///< the way from the previous pose meets a singular pose, where the mode to follow ceases to exist, or is
+             ///< longer than some tens of turns
+  diverged   ///< of an Outcome that nothing was put into
 };
 
 /// The word that names a status, as programs print it, e.g. "no_real_mode".

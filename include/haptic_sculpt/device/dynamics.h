@@ -34,7 +34,10 @@ Outcome<Dynamics_terms<S>> dynamics(const Device_parameters<S>& parameters, Dyna
   const Outcome<Device_motion<S>> motion = device_motion(parameters, pose, rate);
   if (!motion)
     return Outcome<Dynamics_terms<S>>(motion.status(), motion.shortfall());
-  return dynamics(parameters, model, *motion);
+  const Outcome<Dynamics_terms<S>> terms = dynamics(parameters, model, *motion);
+  if (terms && !internal::is_finite(terms->kinetic))
+    return Outcome<Dynamics_terms<S>>(Device_status::not_finite, S(0));
+  return terms;
 }
 
 /// Joint accelerations for given torques, without joint friction. Failures: `singular`, `not_finite`.
@@ -42,12 +45,14 @@ template <class S>
 Outcome<Joint_accelerations<S>> forward_dynamics(const Device_parameters<S>& parameters, Dynamics_model model,
                                                  const Device_pose<S>& pose, const Device_vector<S>& rate,
                                                  const Device_vector<S>& torque) {
+  if (!internal::all_finite(torque))
+    return Outcome<Joint_accelerations<S>>(Device_status::not_finite, S(0));
   const Outcome<Dynamics_terms<S>> terms = dynamics(parameters, model, pose, rate);
   if (!terms)
     return Outcome<Joint_accelerations<S>>(terms.status(), terms.shortfall());
   const Joint_accelerations<S> found{terms->acceleration(rate, torque)};
   if (!internal::all_finite(found.acceleration))
-    return Outcome<Joint_accelerations<S>>(Device_status::singular, S(0));
+    return Outcome<Joint_accelerations<S>>(terms->acceleration_failure(), S(0));
   return found;
 }
 

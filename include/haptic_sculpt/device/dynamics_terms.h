@@ -10,7 +10,7 @@ namespace haptic_sculpt {
 /// The equation of motion `M thetadd + C thetad + gravity = tau` at one state, and the energies.
 template <class S> struct Dynamics_terms {
   using Scalar = S;           ///< what `Outcome` measures a shortfall in
-  Device_matrix<S> mass;      ///< M, symmetric, positive definite unless nothing has mass; kg m^2
+  Device_matrix<S> mass;      ///< M, symmetric, positive definite unless links and rotors have no mass; kg m^2
   Device_matrix<S> coriolis;  ///< C with Christoffel's symbols, so that dM/dt = C + C^T; kg m^2/s
   Device_vector<S> gravity;   ///< gradient of the potential energy, N m
   S kinetic;                  ///< J
@@ -23,6 +23,12 @@ template <class S> struct Dynamics_terms {
   /// Joint accelerations for given torques; not finite where the mass matrix is singular.
   Device_vector<S> acceleration(const Device_vector<S>& rate, const Device_vector<S>& torque) const {
     return solve_mass(torque - coriolis * rate - gravity);
+  }
+  /// Why `acceleration()` is not finite: `singular`, or `not_finite` where it overflows.
+  Device_status acceleration_failure() const {
+    internal::Small_lu<S, 3> lu;
+    lu.compute(mass);
+    return lu.least_pivot() > S(0) ? Device_status::not_finite : Device_status::singular;
   }
   /// M^-1 times a vector.
   Device_vector<S> solve_mass(const Device_vector<S>& right) const {

@@ -9,7 +9,8 @@
 
 namespace haptic_sculpt {
 
-/// The pose in the home mode: apex or platform above its elbows. Failures as of the form's own function.
+/// The pose in the home mode: apex or platform above its elbows; of a mirror design the mirror pose, wherever that is.
+/// Failures as of the form's own function.
 template <class S>
 Outcome<Device_pose<S>> forward_kinematics(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
   return parameters.form() == Device_form::general ? general_forward(parameters, theta)

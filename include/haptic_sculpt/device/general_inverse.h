@@ -203,7 +203,8 @@ std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& para
             continue;
           bool known = false;
           for (const Device_pose<S>& other : found)
-            known = known || ((other.theta - pose.theta).cwiseAbs().maxCoeff() < mode_separation<S>() &&
+            known = known || ((other.cos_theta - pose.cos_theta).cwiseAbs().maxCoeff() < mode_separation<S>() &&
+                              (other.sin_theta - pose.sin_theta).cwiseAbs().maxCoeff() < mode_separation<S>() &&
                               (other.orientation - pose.orientation).cwiseAbs().maxCoeff() < mode_separation<S>());
           if (!known)
             found.push_back(pose);

@@ -156,7 +156,7 @@ Outcome<Device_motion<S>> device_motion(const Device_parameters<S>& parameters, 
   if (internal::all_finite(m.jacobian_rate.linear) && internal::all_finite(m.jacobian_rate.angular))
     outcome.succeed();
   else
-    outcome.fail(Device_status::singular, S(0));
+    outcome.fail(Device_status::not_finite, S(0));
   return outcome;
 }
 

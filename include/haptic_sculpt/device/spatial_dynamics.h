@@ -102,9 +102,7 @@ Outcome<Joint_torques<S>> spatial_inverse_dynamics(const Device_parameters<S>& p
   if (internal::all_finite(torque))
     outcome.succeed();
   else
-    outcome.fail(internal::all_finite(rate) && internal::all_finite(acceleration) ? Device_status::singular
-                                                                                  : Device_status::not_finite,
-                 S(0));
+    outcome.fail(Device_status::not_finite, S(0));
   return outcome;
 }
 

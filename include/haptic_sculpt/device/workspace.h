@@ -53,7 +53,7 @@ template <class S> S isotropic_force(const Device_parameters<S>& parameters, con
 
 /// One reachable pose of a sampled workspace.
 template <class S> struct Workspace_sample {
-  Device_pose<S> pose;       ///< in the home mode
+  Device_pose<S> pose;       ///< in the home mode; of a mirror design the mirror pose, which may be below its elbows
   Workspace_verdict verdict; ///< which limits it breaks: samples need not be inside
   S condition,               ///< number, of the velocity equations
       force;                 ///< isotropic force, N

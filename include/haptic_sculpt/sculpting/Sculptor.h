@@ -154,8 +154,10 @@ public:
   Edited insert_on_face(Face_index f, const Point& p) {
     const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
-    return edited(f, mesh().num_faces(),
-                  [&](auto& editor) { return editor.insert_on_face(f, internal::coordinates(p), delta()); });
+    return edited(f, mesh().num_faces(), [&](auto& editor) {
+      guarded_.expect_vertex(internal::coordinates(p));
+      return editor.insert_on_face(f, internal::coordinates(p), delta());
+    });
   }
 
   /// Creates a vertex at `p` and joins it to the ends of e and the two opposite corners; four faces take the place of
@@ -164,6 +166,7 @@ public:
     const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
     return edited(e, mesh().num_edges(), [&](auto& editor) {
+      guarded_.expect_vertex(internal::coordinates(p));
       return editor.insert_on_edge(mesh().halfedge(e), internal::coordinates(p), delta());
     });
   }

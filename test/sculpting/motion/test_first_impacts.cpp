@@ -219,6 +219,33 @@ BOOST_AUTO_TEST_CASE(what_is_asked_of_open_meshes_and_polygons) {
   BOOST_CHECK_THROW(first_impacts(square, beside, Point_3(0.25, 0.75, -1)), Error); // through it
 }
 
+// An edge that was flipped onto another is there twice.
+BOOST_AUTO_TEST_CASE(a_vertex_with_two_edges_to_another_is_named) {
+  meshes::Triangle_list list = meshes::tetrahedron();
+  list += meshes::tetrahedron().scale_and_move(1, 5, 0, 0);
+  Mesh mesh = meshes::to_mesh(list);
+  const auto flipped = mesh.halfedge(Vertex_index(0), Vertex_index(1));
+  CGAL::Euler::flip_edge(flipped, mesh);
+  const Point_3 target(20, 0.1, 0.1);
+  const auto names = [](const Error& error) {
+    return std::string(error.what()).find("has two edges") != std::string::npos;
+  };
+  for (const auto v : {mesh.source(flipped), mesh.target(flipped)})
+    BOOST_CHECK_EXCEPTION(first_impact(mesh, v, target), Error, names);
+  BOOST_TEST(first_impact(mesh, Vertex_index(0), target).has_value());
+}
+
+// The sweeps answer of edges of no length, too, whether preconditions are checked or not.
+BOOST_AUTO_TEST_CASE(meshes_with_edges_of_no_length_are_answered) {
+  meshes::Triangle_list list = meshes::tetrahedron();
+  list += meshes::tetrahedron().scale_and_move(1, 5, 0, 0);
+  Mesh mesh = meshes::to_mesh(list);
+  mesh.point(Vertex_index(5)) = mesh.point(Vertex_index(4));
+  for (const auto v : mesh.vertices())
+    BOOST_TEST(
+        first_impact(mesh, v, mesh.point(v) + meshes::Kernel::Vector_3(v.idx() < 4 ? 20 : -20, 0.1, 0.1)).has_value());
+}
+
 BOOST_AUTO_TEST_CASE(meshes_with_coordinates_out_of_range_are_refused) {
   constexpr double infinite = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
   for (const double x : {infinite, -infinite, none, 0x1.8p1000})

@@ -77,7 +77,7 @@ Outcome<Coupled_state<S, count>> runge_kutta_step(const Device_parameters<S>& pa
     rate_slope[stage] = terms->acceleration(rate, V(effect.torque + joint_friction(parameters, rate)));
     further_slope[stage] = effect.further_rate;
     if (!internal::all_finite(rate_slope[stage]))
-      return Result(Device_status::singular, S(0));
+      return Result(terms->acceleration_failure(), S(0));
   }
   const S sixth = step / S(6);
   const V theta = start.pose.theta +

@@ -208,6 +208,9 @@ public:
     return hit;
   }
 
+  /// A vertex is to be created at p: a visitor may ask before the edit is over.
+  void expect_vertex(const Coordinates& p) { scene_.include(p); }
+
   /// Runs an edit between looking for changes by others and noting what it changed.
   template <class Edit_function>
   Edited edited(const Edit_function& edit) {

@@ -31,6 +31,7 @@ public:
     if (is_farther(target, place_, source)) {
       place_ = source;
       path_ = Slide_path(source);
+      forget(); // it does not touch what it met there
     }
     return ground.is_spent() && why != Drag_end::reached ? Drag_end::work_limit : why;
   }
