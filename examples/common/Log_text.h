@@ -15,7 +15,7 @@ struct Foreign_log : Error {
 };
 
 /// Makes the lines of a log. Each ends with a checksum of all that stands before it, as a comment, so that a log is a
-/// script and a line that is changed, moved or gone is found. doc/use/sculpt.md says what the lines are.
+/// script and a line that is changed, moved or gone is found. doc/use/log.md says what the lines are.
 class Log_writer {
 public:
   Log_writer() = default;

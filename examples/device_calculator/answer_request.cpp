@@ -196,9 +196,10 @@ json examples::answer_request(const json& request) {
     throw Bad_request("`params` must be given");
   const json& params = request["params"];
   const std::string op = request["op"];
-  const json form = request.contains("form")                        ? request["form"]
-                    : params.is_object() && params.contains("form") ? params["form"]
-                                                                    : json();
+  const bool has_form_within = params.is_object() && params.contains("form");
+  const json form = request.contains("form") ? request["form"] : has_form_within ? params["form"] : json();
+  if (has_form_within && params["form"] != form)
+    throw Bad_request("`form` is given twice, in `params` and beside it: leave one out");
   Request r;
   r.with_dynamics = op == "dynamics";
   r.description = device_description_from_json(params, device_form_from_json(form), r.with_dynamics);

@@ -19,7 +19,7 @@ struct Near_vertex {
 /// Without overflow, as far as the distance itself is a double.
 double distance(const Edit_record::Coordinates& p, const Edit_record::Coordinates& q);
 
-/// The report: JSON, one edit a line. doc/use/sculpt.md lists its keys. Doubles come back bit for bit.
+/// The report: JSON, one edit a line. doc/use/report.md lists its keys. Doubles come back bit for bit.
 /// \param notes what people have been told besides \param nearest what `--nearest` found; empty: it was not asked for
 std::string report_of(const Run_result& result, const std::vector<std::string>& notes,
                       const std::vector<Near_vertex>& nearest);

@@ -26,6 +26,8 @@ Face_soup triangulated(const Face_soup& soup, const Arguments& arguments) {
   Face_soup result;
   result.points = soup.points, result.attributes = soup.attributes;
   std::vector<std::array<Face_soup::Index, 3>> others;
+  Validity_report undivided;
+  undivided.delta = arguments.delta.value_or(0);
   for (std::size_t f = 0; f < soup.number_of_faces(); ++f) {
     const Face_soup::Index* const corner = soup.begin(f);
     if (soup.number_of_corners(f) == 3) {
@@ -37,13 +39,8 @@ Face_soup triangulated(const Face_soup& soup, const Arguments& arguments) {
       places.push_back({soup.points[*c].x(), soup.points[*c].y(), soup.points[*c].z()});
     const auto triangles = divided_polygon(places);
     if (!triangles) {
-      Validity_report undivided;
       undivided.non_triangular_faces.emplace_back(static_cast<Face_soup::Index>(f));
-      write_refusal(arguments, soup, undivided);
-      throw Read_error("cannot read '" + arguments.mesh + "': face " + std::to_string(f) + ", of " +
-                       std::to_string(places.size()) +
-                       " corners, cannot be divided into triangles, as it folds over itself or has all its corners on "
-                       "a line: along no axis it is seen as a simple polygon. Divide it by hand");
+      continue;
     }
     for (const Corners_of_triangle& t : *triangles) {
       const std::array<Face_soup::Index, 3> triangle{corner[t[0]], corner[t[1]], corner[t[2]]};
@@ -52,6 +49,15 @@ Face_soup triangulated(const Face_soup& soup, const Arguments& arguments) {
       else
         others.push_back(triangle);
     }
+  }
+  if (const auto& faces = undivided.non_triangular_faces; !faces.empty()) {
+    write_refusal(arguments, soup, undivided);
+    const auto f = static_cast<std::size_t>(faces.front());
+    const std::string more = faces.size() > 1 ? " (and " + std::to_string(faces.size() - 1) + " more)" : "";
+    throw Read_error("cannot read '" + arguments.mesh + "': face " + std::to_string(f) + more + ", of " +
+                     std::to_string(soup.number_of_corners(f)) +
+                     " corners, cannot be divided into triangles, as it folds over itself or has all its corners on "
+                     "a line: along no axis it is seen as a simple polygon. Divide it by hand");
   }
   for (const auto& triangle : others)
     result.add_face(triangle);

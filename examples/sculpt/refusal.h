@@ -24,7 +24,7 @@ void for_each_kind_of_fault(const Validity_report& report, const Function& do_th
 }
 
 /// Of a mesh that was refused: writes every fault as JSON where `--report` asks for it, and draws them in red where
-/// `--picture` does; tells on standard error what cannot be written. Keys: doc/use/sculpt.md.
+/// `--picture` does; tells on standard error what cannot be written. Keys: doc/use/report.md.
 /// \param soup what was validated, whose points and faces the report names
 void write_refusal(const Arguments& arguments, const Face_soup& soup, const Validity_report& report);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/use/sculpt.md.
+// Sculpts a mesh from a script. See --help; options and exit codes: doc/use/sculpt.md, script: script.md,
+// report: report.md.
 #include "../common/Log_file.h"
 #include "../common/Result_writer.h"
 #include "../common/contents_of.h"

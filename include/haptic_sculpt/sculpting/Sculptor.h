@@ -22,7 +22,7 @@ namespace haptic_sculpt {
 /// \tparam Traits_ a model of SweptCollisionTraits_3: decides what a dragged vertex meets, and what of it first. With
 /// the default no decision is ever wrong; with another nothing is promised of drags but what that one keeps. Edits,
 /// finding, the delta rule, and which pairs are not looked at, are exact whatever the traits
-/// (doc/proofs/exact_sweeps.md).
+/// (doc/use/exact_sweeps.md, "Another arithmetic").
 ///
 /// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay.
 /// Changes made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()`

@@ -25,6 +25,11 @@ void* resized_by_gmp(void* p, std::size_t, std::size_t size) {
   return std::realloc(p, size);
 }
 void freed_by_gmp(void* p, std::size_t) { std::free(p); }
+
+struct Gmp_is_counted {
+  Gmp_is_counted() { mp_set_memory_functions(counted_by_gmp, resized_by_gmp, freed_by_gmp); }
+};
+BOOST_TEST_GLOBAL_FIXTURE(Gmp_is_counted);
 } // namespace
 
 using namespace haptic_sculpt;
@@ -124,7 +129,6 @@ std::size_t largest_degree(const Mesh& mesh) {
 } // namespace
 
 BOOST_AUTO_TEST_CASE(warm_drags_allocate_nothing) {
-  mp_set_memory_functions(counted_by_gmp, resized_by_gmp, freed_by_gmp);
   const std::uint64_t seed = seed_from_environment(6);
   BOOST_TEST(allocations_so_far > 0u); // it counts
   for (const Response response : {Response::slide, Response::stop, Response::paper()}) {

@@ -281,7 +281,7 @@ BOOST_AUTO_TEST_CASE(the_delta_rule_stops_where_a_rational_bisection_says) {
     Sculptor<Mesh> sculptor(mesh, parameters::delta(delta).response(Response::stop));
     const auto result = sculptor.grab(v).drag_to(target);
     wrong += !validate(mesh, delta).is_valid();
-    // The rational time up to which no sampled point of the way breaks the rule, on 2^12 points.
+    // The rational time up to which no sampled point of the way breaks the rule, on 2^8 points.
     const auto kept_at = [&](const mpq_class& u) {
       for (const auto& f : list.faces) {
         if (std::find(f.begin(), f.end(), static_cast<std::size_t>(v)) == f.end())

@@ -172,8 +172,8 @@ inline std::pair<double, double> time_of_fraction(const Sweep_points& p, const S
     if (sign_of(fraction.numerator) == 0)
       return {0, 0};
     const double time = (Wide_double(fraction.numerator) / Wide_double(fraction.denominator)).to_double();
-    // Conversions round twice a limb, of which there are six in each, and the quotient once; a subnormal quotient by
-    // 2^-1074.
+    // Conversions round twice a limb, of which there are at most twelve in both, and the quotient once; a subnormal
+    // quotient by 2^-1074.
     const double slack = 32 * unit_roundoff_any_rounding * time + std::numeric_limits<double>::denorm_min();
     return {std::max(0.0, time - slack), std::min(1.0, time + slack)};
   });

@@ -8,7 +8,7 @@
 namespace haptic_sculpt::internal {
 
 /// How many units in the last place a stop keeps from a contact plane by default.
-/// Measured (doc/proofs/stop.md): below 3 a rounded stop often fails its proof and retries; above 4 nothing is gained.
+/// Measured: below 3 a rounded stop often fails its proof and retries; above 4 nothing is gained.
 constexpr double default_clearance_ulps = 4;
 
 /// The distance from |x| to the next larger double; 0 for infinities and what is no number.

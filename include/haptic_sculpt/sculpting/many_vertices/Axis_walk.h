@@ -10,7 +10,7 @@
 namespace haptic_sculpt::internal {
 
 /// Brings many vertices towards their targets by axis moves: all along x, then along y, then along z. Whole ways first;
-/// where too many are held back all is taken back and tried by half (doc/use/many_vertices.md).
+/// where too many are held back all is taken back and tried by half (doc/proofs/many_vertices.md).
 ///
 /// Each coordinate of a vertex only comes nearer to that of its target.
 template <class Sculptor>

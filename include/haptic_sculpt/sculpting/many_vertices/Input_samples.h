@@ -13,7 +13,7 @@ namespace haptic_sculpt::internal {
 /// A face has the points it stands for. An operation takes those of the faces that it changes in hand; it is made where
 /// each is near enough to one of the faces that come of it, or no farther than before, and then they are handed on to
 /// these. So the distance to the face of a point, which is no less than that to the surface, stays bounded, whatever
-/// number of operations there are. See doc/use/many_vertices.md.
+/// number of operations there are. See doc/use/remeshing.md.
 ///
 /// Everything is in the unit of the points, and rounded. Cost of an operation: the points of its faces.
 template <class Mesh>

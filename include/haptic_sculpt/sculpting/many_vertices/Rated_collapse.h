@@ -28,7 +28,7 @@ struct Rated_collapse {
   double volume; ///< volume_of_collapse()
 
   /// More takes too much off a corner. The smaller this is, the nearer a remeshing is to its input, and the farther are
-  /// its edges from the target length; with this neither is worse than what CGAL makes (doc/use/many_vertices.md).
+  /// its edges from the target length; with this neither is worse than what CGAL makes (doc/results/remeshing.md).
   static constexpr double most_volume = 0.8;
   /// If two volumes differ by less, the triangles decide.
   static constexpr double like_volume = 0.1;

@@ -11,7 +11,7 @@
 namespace haptic_sculpt::internal {
 
 /// Splits, collapses and flips edges and relaxes vertices, each by a proven operation of the Sculptor, or not at all.
-/// See doc/use/many_vertices.md.
+/// See doc/use/remeshing.md.
 ///
 /// \tparam Project `project(v, point, patch)` gives where a vertex v of a patch that is to be at `point` goes;
 /// `project.created(v, w)` tells of a new vertex near w

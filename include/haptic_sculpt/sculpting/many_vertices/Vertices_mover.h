@@ -7,7 +7,7 @@
 
 namespace haptic_sculpt::internal {
 
-/// Brings many vertices as near to their targets as axis moves and single drags do (doc/use/many_vertices.md).
+/// Brings many vertices as near to their targets as axis moves and single drags do (doc/proofs/many_vertices.md).
 ///
 /// No drag ends farther from its target than it began, and in an axis move no coordinate does.
 template <class Sculptor>
