@@ -84,6 +84,10 @@ BOOST_AUTO_TEST_CASE(what_overflows_at_a_regular_pose_is_not_named_singular) {
     BOOST_TEST((dynamics(parameters, Dynamics_model::spatial, *pose, Vector(1e160, 0, 0)).status() ==
                 Device_status::not_finite));
     BOOST_TEST((status(none, none) == Device_status::success));
+    Dynamics_terms<double> terms = *dynamics(parameters, Dynamics_model::spatial, *pose, none);
+    BOOST_TEST((terms.acceleration_failure() == Device_status::not_finite));
+    terms.mass.row(1) = terms.mass.row(0);
+    BOOST_TEST((terms.acceleration_failure() == Device_status::singular));
   }
 }
 
