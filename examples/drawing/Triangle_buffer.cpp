@@ -39,18 +39,36 @@ void Triangle_buffer::allocate(const Corner* corners, std::size_t given, std::si
   size_ = size;
 }
 
-void Triangle_buffer::resize(std::size_t triangles) {
+/// \return the buffer before, to be deleted, which stays where there is no memory for both
+unsigned Triangle_buffer::replace(const Corner* corners, std::size_t given, std::size_t size) {
   const unsigned old = std::exchange(buffer_, 0u);
-  const std::size_t kept = std::min(size_, 3 * triangles);
   glGenBuffers(1, &buffer_);
-  allocate(nullptr, 0, 3 * triangles);
+  try {
+    allocate(corners, given, size);
+  } catch (...) {
+    glDeleteBuffers(1, &buffer_);
+    buffer_ = old;
+    throw;
+  }
+  lay_out();
+  return old;
+}
+
+void Triangle_buffer::set(const std::vector<Corner>& corners) {
+  const unsigned old = replace(corners.data(), corners.size(), corners.size());
+  glDeleteBuffers(1, &old);
+}
+
+void Triangle_buffer::resize(std::size_t triangles) {
+  const std::size_t kept = std::min(size_, 3 * triangles);
+  const std::vector<Corner> none(3 * triangles - kept, Corner{{0, 0, 0}, {0, 0, 1}, {0, 0, 0}});
+  const unsigned old = replace(nullptr, 0, 3 * triangles);
   glBindBuffer(GL_COPY_READ_BUFFER, old);
   glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_ARRAY_BUFFER, 0, 0, GLsizeiptr(kept * sizeof(Corner)));
-  if (const std::vector<Corner> none(3 * triangles - kept, Corner{{0, 0, 0}, {0, 0, 1}, {0, 0, 0}}); !none.empty())
+  if (!none.empty())
     glBufferSubData(GL_ARRAY_BUFFER, GLintptr(kept * sizeof(Corner)), GLsizeiptr(none.size() * sizeof(Corner)),
                     none.data());
   glDeleteBuffers(1, &old);
-  lay_out();
 }
 
 void Triangle_buffer::write(std::size_t first, const Corner* corners, std::size_t triangles) {

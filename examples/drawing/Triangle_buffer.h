@@ -14,8 +14,8 @@ public:
   void create();
   void destroy();
 
-  /// Replaces all. \throw Picture_error if there is no memory, or more than can be drawn at once
-  void set(const std::vector<Corner>& corners) { allocate(corners.data(), corners.size(), corners.size()); }
+  /// Replaces all. \throw Picture_error if there is no memory, or more than can be drawn at once: all is as it was then
+  void set(const std::vector<Corner>& corners);
   /// Room for this many triangles; those that are there stay, new ones have no area. Cost: that of copying what is
   /// there within the card. \throw as set()
   void resize(std::size_t triangles);
@@ -30,6 +30,7 @@ private:
   std::size_t size_ = 0; ///< corners
 
   void allocate(const Corner* corners, std::size_t given, std::size_t size);
+  unsigned replace(const Corner* corners, std::size_t given, std::size_t size);
   void lay_out() const;
 };
 

@@ -52,6 +52,13 @@ public:
       fail("'" + found + "' is not " + expected);
     return *value;
   }
+  double bounded(const std::string& expected) { return bounded(expected, word(expected)); }
+  double bounded(const std::string& expected, const std::string& found) const {
+    const double value = number(expected, found);
+    if (std::fabs(value) > most_of_script)
+      fail("'" + found + "' is not " + expected + " from -1e6 to 1e6");
+    return value;
+  }
   double number_or(double otherwise, const std::string& expected) {
     const auto found = next();
     return found ? number(expected, *found) : otherwise;
@@ -62,7 +69,7 @@ public:
     const std::string first = word("a place, as pixels X Y or @X,Y,Z,");
     spot.is_in_space = first[0] == '@';
     if (!spot.is_in_space) {
-      spot.coordinates = {number("a pixel", first), number("a pixel"), 0};
+      spot.coordinates = {bounded("a pixel", first), bounded("a pixel"), 0};
       return spot;
     }
     const auto words = examples::words_of_place(first);
@@ -127,7 +134,7 @@ public:
     else if (first == "view")
       view();
     else if (first == "orbit")
-      add(Kind::orbit).numbers = {line_.number("degrees"), line_.number("degrees"), 0};
+      add(Kind::orbit).numbers = {line_.bounded("degrees"), line_.bounded("degrees"), 0};
     else if (first == "zoom")
       add(Kind::zoom).numbers[0] = more_than_0("a factor");
     else if (first == "fit")

@@ -9,6 +9,9 @@
 
 namespace haptic_sculpt::window_program {
 
+/// Pixels from 0, either way, and degrees: with much more a view would be no numbers.
+constexpr double most_of_script = 1e6;
+
 /// A place in the window: pixels from its upper left corner, or where a point of space is seen when its turn comes.
 struct Spot {
   bool is_in_space = false;

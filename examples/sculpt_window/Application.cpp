@@ -28,6 +28,8 @@ void Application::open_first(int width, int height) {
 }
 
 void Application::enter(Opened opened) {
+  const auto leave_it = [&](Model*) { destroy_unseen(opened); };
+  std::unique_ptr<Model, decltype(leave_it)> unseen(opened.model, leave_it); // where it cannot be shown
   view_.show(opened.faces, opened.middle, view_size_[0], view_size_[1]);
   frame();
   const double extent = view_.camera().unscaled(2.0);
@@ -47,7 +49,8 @@ void Application::enter(Opened opened) {
     options_.out = Options::sculpted_beside(path_);
   kept_.push_back({log_, opened.resumed});
   ++scene_;
-  thread_.enter(opened.model);
+  has_failed_to_draw_ = false;
+  thread_.enter(unseen.release());
   if (!choices_.slides)
     thread_.choose_response(false);
   frames_due_ = 3;
@@ -63,6 +66,12 @@ void Application::say(const std::string& text) {
   while (messages_.size() > 6)
     messages_.pop_front();
   frames_due_ = 3;
+}
+
+/// \param text "refused: " is said before it
+void Application::refuse(const std::string& text) {
+  last_refusal_ = text;
+  say("refused: " + text);
 }
 
 void Application::fail_to_write(const std::string& what) {
@@ -153,7 +162,10 @@ void Application::on_key(const Key& key) {
   if (choices_.question != Choices::Question::none && key.order != Order::let_go)
     return; // a dialogue is open
   // What a dialogue asks for is noted when it is answered; and a recording does not record.
-  if (is_playing() || (key.order != Order::save && key.order != Order::open && key.order != Order::record))
+  const bool asks_for_name =
+      choices_.question == Choices::Question::name_to_save || choices_.question == Choices::Question::name_to_open;
+  if (is_playing() ||
+      (key.order != Order::save && key.order != Order::open && key.order != Order::record && !asks_for_name))
     note("key %s", key.name);
   obey(key.order);
 }
@@ -187,11 +199,16 @@ void Application::leave(Model* model) {
     fail_to_write(failure);
 }
 
-/// What has been opened when the window ends: its log stays where there was something in it.
+/// Its log stays where there was something in it.
+void Application::destroy_unseen(const Opened& opened) {
+  destroy(opened.model, opened.resumed > 0 || (!options_.log.empty() && opened.log == options_.log));
+}
+
+/// What has been opened when the window ends.
 void Application::leave_unseen() {
   try {
     if (const auto opened = background_.take_opened())
-      destroy(opened->model, opened->resumed > 0 || (!options_.log.empty() && opened->log == options_.log));
+      destroy_unseen(*opened);
   } catch (const std::exception&) { // nobody waits for it any more
   }
 }
@@ -204,8 +221,7 @@ void Application::take_answers() {
   for (Report report; thread_.take(report);) {
     switch (report.kind) {
     case Report::Kind::refused:
-      last_refusal_ = report.text;
-      say("refused: " + last_refusal_);
+      refuse(report.text);
       break;
     case Report::Kind::beside:
       turns_ = button_ == 0;
@@ -220,7 +236,7 @@ void Application::take_answers() {
       if (report.copy)
         background_.save(report.copy, std::move(saved));
       else if (report.outgrown && saved.scene == scene_) // in turn again, now that it is known how large it is
-        to_save_.push_back(std::move(saved)), thread_.copy();
+        ask_for_copy(std::move(saved));
       else
         fail_to_write("'" + saved.path + "' is not saved: " + report.text);
       break;
@@ -235,11 +251,15 @@ void Application::take_reports() {
   take_answers();
   try {
     if (auto opened = background_.take_opened()) {
-      note_file("open", opened->path); // here: what the hand did meanwhile was done to the mesh before
+      const std::string path = opened->path;
       enter(std::move(*opened));
+      note_file("open", path); // here: what the hand did meanwhile was done to the mesh before
     }
   } catch (const Error& error) {
-    fail_to_open(examples::message_of(error));
+    fail_to_open(examples::message_of(error), opens_for_script_);
+  } catch (const std::exception&) { // such as no memory for it: the mesh that is shown stays
+    fail_to_open("'" + opening_.front().path + "' is not opened: " + examples::message_of(std::current_exception()),
+                 opens_for_script_);
   }
   if (!background_.is_opening() && to_open_.empty())
     opening_.clear();
@@ -256,8 +276,10 @@ void Application::take_saved() {
         continue; // another was opened meanwhile
       kept_.back().is_saved = true, kept_.back().saved_edits = saved->edits;
       is_done_ = is_done_ || saved->quits;
+    } catch (const Error& error) {
+      fail_to_write(examples::message_of(error));
     } catch (const std::exception&) {
-      fail_to_write(examples::message_of(std::current_exception()));
+      fail_to_write("'" + saved->path + "' is not saved: " + examples::message_of(std::current_exception()));
     }
   }
 }
@@ -309,7 +331,15 @@ void Application::draw() {
   Sculpture_view::Hand_marks marks;
   marks.shows_brush = choices_.tool == Tool::brush && !turns_;
   marks.brush = choices_.brush;
-  view_.draw(status_, marks);
+  try {
+    view_.draw(status_, marks);
+  } catch (const std::exception&) { // such as a graphics card without memory: the work goes on
+    if (std::exchange(has_failed_to_draw_, true))
+      return;
+    const std::string why = "not all can be drawn: " + examples::message_of(std::current_exception());
+    say(why);
+    std::cerr << "sculpt_window: " << why << '\n';
+  }
 }
 
 void Application::frame_done(const Frame_time& time) {

@@ -28,7 +28,7 @@ struct Choices {
   bool shows_help = false, shows_panels = true, shows_figures = false, shows_hints = true;
   /// What the window asks before it goes on.
   enum class Question { none, leave_unsaved, name_to_save, name_to_open } question = Question::none;
-  std::array<char, 1024> name{};
+  std::array<char, 4096> name{}; ///< as long as a path may be
 };
 
 /// The window's thread: input, requests to the loop, what comes back, and what is drawn. Knows no window library: the
@@ -119,8 +119,9 @@ private:
   std::array<int, 2> view_size_{};
   std::string to_open_;   ///< as soon as nothing is under way
   std::vector<examples::Named_file> opening_; ///< what is being opened, or is to be, and its log
-  std::string next_open_; ///< asked for once while there was unsaved work
-  std::set<std::string> unopened_; ///< what was refused for that, and not opened since
+  std::pair<std::string, std::uint64_t> next_open_; ///< asked for once while there was unsaved work: of how many edits
+  std::set<std::string> unopened_;                  ///< by a script, what was refused for that, and not opened since
+  bool opens_for_script_ = false;                   ///< what is being opened
   bool has_failed_to_open_ = false;
 
   Eigen::Vector2d mouse_ = Eigen::Vector2d::Zero();
@@ -134,6 +135,7 @@ private:
   int frames_due_ = 3;
   Clock::time_point last_frame_{};
   bool is_done_ = false, has_failed_to_write_ = false;
+  bool has_failed_to_draw_ = false; ///< the mesh that is shown: said once
   bool is_leaving_ = false; ///< as soon as nothing is under way, if all is saved by then; else that is asked
   bool discards_ = false;   ///< what is not saved of the mesh that is shown
   std::string screenshot_, last_refusal_;
@@ -149,23 +151,27 @@ private:
 
   /// Whether status_ is of the mesh that is shown; else the loop has yet to enter it, and nothing was done to it.
   bool has_status() const { return status_.scene == scene_; }
-  bool is_unsaved() const { return !kept_.empty() && kept_.back().is_unsaved(has_status() ? status_.edits : 0); }
+  std::uint64_t edits() const { return has_status() ? status_.edits : 0; }
+  bool is_unsaved() const { return !kept_.empty() && kept_.back().is_unsaved(edits()); }
   bool is_at_rest() const;
   Pointer pointer_here() const;
   void point();
   void enter(Opened opened);
   void take_reports();
   void take_answers();
+  void refuse(const std::string& text);
   void leave(Model* model);
+  void destroy_unseen(const Opened& opened);
   void leave_unseen();
   void save(const std::string& path, bool quits = false);
+  void ask_for_copy(Background::Saved saved);
   /// What a file is to hold that is written while the window is open.
   enum class Written { mesh, picture, recording };
   bool may_write(const std::string& path, Written what);
   std::string free_name(const std::string& extension);
   void take_saved();
-  void open(const std::string& path);
-  void fail_to_open(const std::string& why);
+  void open(const std::string& path, bool for_script = false);
+  void fail_to_open(const std::string& why, bool for_script);
   void quit();
   void obey(Order order);
   void choose(Tool tool);

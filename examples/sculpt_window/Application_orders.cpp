@@ -3,10 +3,13 @@
 /// What keys and questions order.
 #include "Application.h"
 
+#include "../common/mesh_program.h"
+
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 
 #include <filesystem>
 #include <iostream>
+#include <system_error>
 
 namespace haptic_sculpt::window_program {
 
@@ -105,8 +108,10 @@ void Application::obey(Order order) {
     thread_.take_back(false);
     break;
   case Order::let_go:
-    choices_.question = Choices::Question::none, choices_.shows_help = false;
-    thread_.break_off();
+    // What is open over the scene is closed alone: what is under way behind it goes on.
+    if (std::exchange(choices_.question, Choices::Question::none) == Choices::Question::none &&
+        !std::exchange(choices_.shows_help, false))
+      thread_.break_off();
     break;
   case Order::response:
     choices_.slides = !choices_.slides;
@@ -187,7 +192,8 @@ void Application::obey(Order order) {
 /// Of a file that is not there yet.
 std::string Application::free_name(const std::string& extension) {
   std::string name = "sculpt_window" + extension;
-  for (int i = 1; std::filesystem::exists(std::filesystem::symlink_status(name)); ++i)
+  std::error_code unknown; // whether it is there: then writing it says why
+  for (int i = 1; std::filesystem::exists(std::filesystem::symlink_status(name, unknown)) && !unknown; ++i)
     name = "sculpt_window_" + std::to_string(i) + extension;
   return name;
 }
@@ -235,8 +241,18 @@ void Application::save(const std::string& path, bool quits) {
     return;
   Background::Saved saved;
   saved.path = path, saved.scene = scene_, saved.quits = quits;
+  ask_for_copy(std::move(saved));
+}
+
+void Application::ask_for_copy(Background::Saved saved) {
   to_save_.push_back(std::move(saved));
-  thread_.copy();
+  try {
+    thread_.copy();
+  } catch (const std::exception&) { // such as no memory for it: nothing was asked for
+    const std::string path = std::exchange(to_save_.back().path, {});
+    to_save_.pop_back();
+    fail_to_write("'" + path + "' is not saved: " + examples::message_of(std::current_exception()));
+  }
 }
 
 /// Nothing is under way that could still change the mesh, or has its log.
@@ -245,7 +261,7 @@ bool Application::is_at_rest() const {
          !background_.is_saving();
 }
 
-void Application::open(const std::string& path) {
+void Application::open(const std::string& path, bool for_script) {
   const std::string log = options_.log_of(path);
   const std::vector<examples::Named_file> names = {{"a mesh that is being opened", path},
                                                    {"the log of '" + path + "'", log}};
@@ -263,25 +279,29 @@ void Application::open(const std::string& path) {
   for (const std::string& name : {path, log})
     if (const auto* const other = examples::same_file(name, outputs))
       return fail_to_open("'" + path + "' is not opened: " + (name == log ? "its log '" + log + "' is " : "it is ") +
-                          other->role);
-  if (is_unsaved() && next_open_ != path) {
-    next_open_ = path;
-    unopened_.insert(path);
+                              other->role,
+                          for_script);
+  const std::pair<std::string, std::uint64_t> wanted(path, edits()); // what was done since is not to be left by it
+  if (is_unsaved() && next_open_ != wanted) {
+    next_open_ = wanted;
+    if (for_script)
+      unopened_.insert(path);
     note_file("open", path); // twice leaves it
     return say(std::string("there is unsaved work: save it, or drop the file once more to leave it") +
                (log_.empty() ? "" : " (the log has it)"));
   }
-  next_open_.clear();
+  next_open_ = {};
   unopened_.erase(path);
   say("opening " + path);
   opening_ = names;
+  opens_for_script_ = for_script;
   background_.open(path, log);
 }
 
-void Application::fail_to_open(const std::string& why) {
+void Application::fail_to_open(const std::string& why, bool for_script) {
   say(why);
   std::cerr << "sculpt_window: " << why << '\n';
-  has_failed_to_open_ = true;
+  has_failed_to_open_ = has_failed_to_open_ || for_script; // a slip of the hand is no failure of the run
 }
 
 void Application::quit() {

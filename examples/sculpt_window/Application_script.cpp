@@ -56,8 +56,10 @@ void Application::play() {
   frames_due_ = 3;
   if (next_action_ < script_.size()) {
     if (act(script_[next_action_]) && ++next_action_ == script_.size() && !unopened_.empty())
-      fail_to_open("'" + *unopened_.begin() +
-                   "' was not opened, for there was unsaved work: save that before, or give `open` twice to leave it");
+      fail_to_open(
+          "'" + *unopened_.begin() +
+              "' was not opened, for there was unsaved work: save that before, or give `open` twice to leave it",
+          true);
     return;
   }
   if (options_.screenshot.empty() || !is_settled())
@@ -72,7 +74,8 @@ void Application::play() {
 bool Application::act(const Action& action) {
   using Kind = Action::Kind;
   const auto& n = action.numbers;
-  if ((thread_.is_stroke_waiting() && action.kind != Kind::wait) || is_leaving_)
+  const bool is_waiting = thread_.is_stroke_waiting() || thread_.is_press_waiting(); // which may have been beside
+  if ((is_waiting && action.kind != Kind::wait) || is_leaving_)
     return false; // a place a dab
   if (background_.is_opening() || !has_status())
     return false; // what comes after an `open` is of that mesh
@@ -81,7 +84,10 @@ bool Application::act(const Action& action) {
     const Eigen::Vector2d from = pixel_of(action.spot);
     const Eigen::Vector2d at =
         action.share > 0 ? Eigen::Vector2d(from + action.share * (pixel_of(action.to) - from)) : from;
-    on_move(at.x(), at.y());
+    if (at.cwiseAbs().maxCoeff() <= most_of_script)
+      on_move(at.x(), at.y());
+    else
+      refuse("the place is too far beside what the window shows");
     return true;
   }
   case Kind::press: {
@@ -159,7 +165,7 @@ bool Application::act(const Action& action) {
   case Kind::open:
     if (!is_at_rest())
       return false;
-    open(action.word);
+    open(action.word, true);
     return true;
   case Kind::record:
     record(action.word);
@@ -274,12 +280,13 @@ void Application::flush_record() {
 
 int Application::finish() {
   while (!to_save_.empty() || background_.is_saving() || background_.is_opening()) {
+    status_ = thread_.status(); // how large the mesh is by now: for what is copied again
     take_answers(), take_saved(), leave_unseen();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  const Status last = status_;
   for (Model* const model : thread_.end())
     leave(model);
+  const Status last = thread_.status();
   const Percentiles frames = summary_of(frames_), of_process = summary_of(frames_of_process_);
   const auto ms = [](std::uint64_t ns) { return double(ns) / 1e6; };
   std::printf("%llu frames: median %.2f ms, 99 %% within %.2f ms, longest %.2f ms (%.2f, %.2f, %.2f ms of all "

@@ -7,6 +7,7 @@
 #include "../common/write_file.h"
 
 #include <chrono>
+#include <stdexcept>
 
 namespace haptic_sculpt::window_program {
 namespace {
@@ -16,10 +17,24 @@ bool is_ready(const Future& future) {
   return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
+/// Has a thread of its own do this. Where there can be none, `otherwise` gives the promise what takes its place.
+template <class Work, class Otherwise>
+auto begun(const Work& work, const Otherwise& otherwise) {
+  try {
+    return std::async(std::launch::async, work);
+  } catch (const std::exception& error) {
+    std::promise<decltype(work())> promise;
+    otherwise(promise,
+              std::make_exception_ptr(std::runtime_error(std::string("no thread can be made: ") + error.what())));
+    return promise.get_future();
+  }
+}
+
 } // namespace
 
 void Background::open(const std::string& path, const std::string& log) {
-  opening_ = std::async(std::launch::async, [path, log] { return window_program::open(path, log); });
+  opening_ = begun([path, log] { return window_program::open(path, log); },
+                   [](auto& promise, const std::exception_ptr& failure) { promise.set_exception(failure); });
 }
 
 std::optional<Opened> Background::take_opened() {
@@ -30,17 +45,21 @@ std::optional<Opened> Background::take_opened() {
 
 void Background::save(const Saved_copy& copy, Saved saved) {
   const auto before = saving_.empty() ? std::shared_future<Saved>() : saving_.back();
-  auto saving = std::async(std::launch::async, [copy, saved, before]() mutable {
+  const auto write = [copy, saved, before] {
     if (before.valid())
       before.wait();
+    Saved written = saved;
     try {
-      saved.lost = write_copy(*copy, saved.path);
+      written.lost = write_copy(*copy, saved.path);
     } catch (...) { // handed on to the window's thread, which tells it
-      saved.error = std::current_exception();
+      written.error = std::current_exception();
     }
-    return saved;
-  });
-  saving_.push_back(saving.share());
+    return written;
+  };
+  saving_.push_back(begun(write, [&saved](auto& promise, const std::exception_ptr& failure) {
+                      saved.error = failure;
+                      promise.set_value(saved);
+                    }).share());
 }
 
 std::optional<Background::Saved> Background::take_saved() {

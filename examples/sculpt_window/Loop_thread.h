@@ -29,10 +29,12 @@ public:
   const Mouse_reading& reading() const { return reading_; }
 
   explicit Loop_thread(Model* first) : model_(first), status_(status_of_first(*first)), thread_([this] { run(); }) {}
-  /// Lets go, and ends.
-  ~Loop_thread() {
+  ~Loop_thread() { end(); }
+  /// Lets go, and ends. What it has told is there yet.
+  void end() {
     ends_ = true;
-    thread_.join();
+    if (thread_.joinable())
+      thread_.join();
   }
   ///@}
 

@@ -9,6 +9,7 @@
 #include <haptic_sculpt/version.h>
 
 #include <filesystem>
+#include <system_error>
 
 namespace haptic_sculpt::window_program {
 namespace {
@@ -95,7 +96,8 @@ std::optional<bool> read_options(int argc, char** argv, Options& options) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0;
   }
-  options.makes_ball = options.mesh.empty() && !std::filesystem::exists(Options::ball());
+  std::error_code unknown; // whether it is there: then writing it says why
+  options.makes_ball = options.mesh.empty() && !std::filesystem::exists(Options::ball(), unknown);
   if (options.mesh.empty())
     options.mesh = Options::ball();
   options.has_out = !options.out.empty();

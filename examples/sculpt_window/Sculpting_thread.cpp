@@ -76,9 +76,10 @@ struct Sculpting_thread::Parts {
   void begin_stroke(std::shared_ptr<Stroke_task> task, Hold hold) {
     stroke = task.get(), stroke_hold = hold;
     ask(std::move(task), [this](const Stroke_task& done, Report& report) {
-      if (stroke == &done)
+      const bool is_down = stroke == &done; // else another press, or none, came after it
+      if (is_down)
         stroke = nullptr;
-      return tell_refusal(done, report);
+      return tell_refusal(done, report) && (is_down || !done.is_beside);
     });
   }
 
@@ -86,12 +87,13 @@ struct Sculpting_thread::Parts {
     const auto task = std::make_shared<Press>(reading, tool, loop->reading());
     pressing = task.get();
     ask(task, [this](const Press& done, Report& report) {
-      if (pressing == &done) {
+      const bool is_down = pressing == &done;
+      if (is_down) {
         pressing = nullptr;
         mouse.take(done.held);
         loop->mouse.put(mouse.reading());
       }
-      return tell_refusal(done, report);
+      return tell_refusal(done, report) && (is_down || !done.is_beside);
     });
   }
 
@@ -250,6 +252,10 @@ bool Sculpting_thread::is_stroke_waiting() const {
   return has_stroke() && parts_->stroke->is_waiting();
 }
 
+bool Sculpting_thread::is_press_waiting() const {
+  return parts_->pressing != nullptr;
+}
+
 void Sculpting_thread::go_on(const Pointer& pointer) {
   parts_->stroke->add(pointer);
 }
@@ -297,6 +303,10 @@ bool Sculpting_thread::is_idle() const {
 std::vector<Model*> Sculpting_thread::end() {
   for (Model* const model : parts_->models)
     model->ends = true;
+  if (parts_->loop) {
+    parts_->loop->end();
+    parts_->status = parts_->loop->latest.get();
+  }
   parts_->loop.reset();
   return std::exchange(parts_->models, {});
 }

@@ -18,7 +18,7 @@ using Saved_copy = std::shared_ptr<const Save>;
 /// What came of what was asked for, where there is something to tell.
 struct Report {
   enum class Kind : std::uint8_t { refused, beside, left, copied };
-  Kind kind = Kind::refused; ///< beside: the button was pressed, and the mouse did not point at the mesh
+  Kind kind = Kind::refused; ///< beside: the button, still down, was pressed beside the mesh
   std::string text;
   Model* model = nullptr;
   Saved_copy copy;         ///< none where it failed: the text says why
@@ -51,12 +51,14 @@ public:
   void copy();
   ///@}
 
+  /// Whether a press that begins neither has not been answered yet.
+  bool is_press_waiting() const;
   /// Where the mouse is, and by how much a probe is pressed in.
   void point(const Pointer& pointer, double depth);
   /// \name Of a brush or an object in hand
   ///@{
   bool has_stroke() const;
-  bool is_stroke_waiting() const;     ///< what was asked for last has not been done yet
+  bool is_stroke_waiting() const;     ///< what was asked for last, the press at first, has not been done yet
   void go_on(const Pointer& pointer); ///< \pre has_stroke() and not is_stroke_waiting()
   ///@}
 
@@ -65,7 +67,8 @@ public:
   bool take(Report& report);
   /// Whether all that was asked for is done and in status(); a stroke is done when it waits for nothing.
   bool is_idle() const;
-  /// Ends the loop. \return all models that have not come back, the one that was asked for last at the end
+  /// Ends the loop: status() is of its last tick from here on. \return all models that have not come back, the one that
+  /// was asked for last at the end
   std::vector<Model*> end();
 
 private:

@@ -36,23 +36,23 @@ void Sculpture_view::show(const std::vector<Seen_face>& faces, const Place& midd
     }
   scene.check();
   drawing::View view;
-  view.width = width, view.height = height;
-  camera_.emplace(scene, view);
-  camera_->make_turnable();
-  first_camera_ = camera_;
-  covered_ = 0, middle_ = middle;
+  view.width = std::max(1, width), view.height = std::max(1, height); // a window that is an icon has neither
+  drawing::Camera camera(scene, view);
+  camera.make_turnable();
   std::vector<drawing::Corner> corners;
   corners.reserve(3 * faces.size());
   double volume = 0; // six times
   for (const Seen_face& face : faces) {
-    const auto at = corners_of(face, *camera_);
+    const auto at = corners_of(face, camera);
     corners.insert(corners.end(), at.begin(), at.end());
     volume += double(at[0].position.dot(at[1].position.cross(at[2].position)));
   }
-  faces_outwards_ = volume > 0;
   if (!view_)
     view_.emplace();
-  view_->mesh().set(corners);
+  view_->mesh().set(corners); // the last that may throw
+  camera_ = first_camera_ = camera;
+  covered_ = 0, middle_ = middle;
+  faces_outwards_ = volume > 0;
   changes_.clear();
   uploaded_ = uploaded_faces_ = 0;
 }
@@ -74,17 +74,27 @@ void Sculpture_view::frame(double covered) {
   covered_ = covered;
 }
 
-void Sculpture_view::upload() {
+/// \return why not all is there: what there is no room for; none: it is
+std::exception_ptr Sculpture_view::upload() {
+  std::exception_ptr failure;
   if (changes_.empty())
-    return;
+    return failure;
   // Of several changes of a face the last one counts; faces with successive indices are written at once.
   std::stable_sort(changes_.begin(), changes_.end(),
                    [](const Seen_face& a, const Seen_face& b) { return a.index < b.index; });
   drawing::Triangle_buffer& mesh = view_->mesh();
   if (const std::size_t needed = std::size_t(changes_.back().index) + 1; needed > mesh.size()) {
     const std::size_t room = needed + needed / 8 + 1024;
-    uploaded_ += 3 * (room - mesh.size()) * sizeof(drawing::Corner);
-    mesh.resize(room);
+    const std::size_t before = mesh.size();
+    try {
+      mesh.resize(room);
+    } catch (const std::exception&) {
+      failure = std::current_exception();
+      changes_.erase(std::remove_if(changes_.begin(), changes_.end(),
+                                    [&](const Seen_face& change) { return change.index >= before; }),
+                     changes_.end());
+    }
+    uploaded_ += 3 * (mesh.size() - before) * sizeof(drawing::Corner);
   }
   std::vector<drawing::Corner> run;
   std::uint32_t first = 0;
@@ -107,10 +117,11 @@ void Sculpture_view::upload() {
   }
   write();
   changes_.clear();
+  return failure;
 }
 
 void Sculpture_view::draw(const Status& status, const Hand_marks& marks) {
-  upload();
+  const std::exception_ptr failure = upload();
   view_->set_marks(marks_of(status, marks), *camera_);
   drawing::Smooth_look look;
   look.shows_edges = shows_edges_, look.faces_outwards = faces_outwards_;
@@ -120,6 +131,8 @@ void Sculpture_view::draw(const Status& status, const Hand_marks& marks) {
       look.brushes.push_back(camera_->scaled(spot[0]).cast<float>());
   look.brush_radius = float(marks.brush.radius / camera_->unscaled(1.0));
   view_->draw_smooth(*camera_, background, look);
+  if (failure)
+    std::rethrow_exception(failure);
 }
 
 /// Where a brush is, on all sides where it is symmetric, and the normals there.

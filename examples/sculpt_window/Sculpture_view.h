@@ -5,6 +5,7 @@
 
 #include "../drawing/Mesh_view.h"
 
+#include <exception>
 #include <optional>
 
 namespace haptic_sculpt::window_program {
@@ -19,8 +20,8 @@ inline const drawing::Color contact{0.93f, 0.00f, 0.60f}, force{0.00f, 0.62f, 0.
 /// \pre the window's OpenGL context is current whenever it is called
 class Sculpture_view {
 public:
-  /// Another mesh, seen from where all of it is seen. O(faces). \throw drawing::Picture_error
-  /// \param middle where planes of symmetry are
+  /// Another mesh, seen from where all of it is seen. O(faces).
+  /// \param middle where planes of symmetry are \throw drawing::Picture_error: the one before stays then
   void show(const std::vector<Seen_face>& faces, const Place& middle, int width, int height);
   bool has_mesh() const { return camera_.has_value(); }
   /// \pre has_mesh()
@@ -42,7 +43,8 @@ public:
     bool shows_brush = false;
     Brush brush;
   };
-  /// Uploads, clears the framebuffer and draws.
+  /// Uploads, clears the framebuffer and draws. \throw drawing::Picture_error where there was no memory for all
+  /// changes; what there is room for is drawn, and the others are not tried again
   void draw(const Status& status, const Hand_marks& marks);
 
   /// From the eye through a pixel to beyond the mesh. \pre has_mesh()
@@ -58,7 +60,7 @@ private:
   std::vector<Seen_face> changes_;
   std::size_t uploaded_ = 0, uploaded_faces_ = 0;
 
-  void upload();
+  std::exception_ptr upload();
   std::vector<std::array<Eigen::Vector3d, 2>> brush_spots(const Pointed& pointed, const Brush& brush) const;
   drawing::Scene marks_of(const Status& status, const Hand_marks& marks) const;
 };

@@ -16,7 +16,7 @@ public:
   /// \name While it is under way, for the window's thread
   ///@{
   void add(const Pointer& pointer) { added_ += places_.push(pointer); } ///< \pre is_waiting() is false
-  bool is_waiting() const { return done_ != added_; }                   ///< a place added is yet to be worked at
+  bool is_waiting() const { return done_ != added_; }                   ///< the press or a place is yet to be worked at
   void end() { ends_ = true; }                                          ///< the button is released
   const Pointed& spot() { return told_spot_.get(); }
   ///@}
@@ -39,7 +39,7 @@ private:
   Place normal_{};
   bool has_begun_ = false;
   boost::lockfree::spsc_queue<Pointer, boost::lockfree::capacity<4>> places_;
-  std::size_t added_ = 0;
+  std::size_t added_ = 1; ///< the press, and places
   std::atomic<std::size_t> done_{0};
   std::atomic<bool> ends_{false};
   Latest<Pointed> told_spot_;
@@ -55,6 +55,7 @@ private:
       tool.begin_stroke();
       has_begun_ = true;
       begin(scene, tool, *hit);
+      ++done_;
     } else if (places_.pop(pointer)) {
       work_at(pointer, scene, tool);
       ++done_;

@@ -124,7 +124,8 @@ private:
     if (window == nullptr)
       return false; // what is missing is said of the window proper
     glfwMakeContextCurrent(window);
-    const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const GLubyte* const name_of_renderer = glGetString(GL_RENDERER); // none: the driver is at fault
+    const std::string renderer = name_of_renderer ? reinterpret_cast<const char*>(name_of_renderer) : "";
     glfwDestroyWindow(window);
     for (const char* const name : {"llvmpipe", "softpipe", "swrast", "Software", "SwiftShader"})
       if (renderer.find(name) != std::string::npos)
@@ -220,8 +221,8 @@ int run(const Options& options) {
         try {
           const std::string lost = window.write_screenshot(path);
           application.say("written " + path + (lost.empty() ? "" : ": " + lost));
-        } catch (const drawing::Picture_error& error) {
-          application.fail_to_write(error.what());
+        } catch (const std::exception&) {
+          application.fail_to_write(examples::message_of(std::current_exception()));
         }
         window.show();
       } else { // a screenshot's frame is not one that a hand waits for

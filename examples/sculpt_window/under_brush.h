@@ -54,29 +54,40 @@ inline std::vector<Face_index> faces_under(Scene& scene, const std::vector<Dab_3
 
 /// How much of a vertex takes part in what brushes do.
 inline auto share_left_free(const Scene& scene) {
-  return boost::make_function_property_map<Vertex_index>([&mask = scene.mask](Vertex_index v) { return 1 - mask[v]; });
+  return boost::make_function_property_map<Vertex_index>([&mask = scene.mask](Vertex_index v) {
+    return std::fmin(1, std::fmax(0, 1 - mask[v])); // rounded where it was interpolated, a mask may be more than 1
+  });
 }
 
 /// Remeshes faces to edges of about a length; masked vertices stay. Waits for the disk where the log has no room.
 /// \param times_broken_off Scene's, when it was asked for \return false: it was broken off \throw Invalid_parameter
-/// where it would be more triangles than can be shown
+/// where it would be more triangles than can be worked with
 inline bool remesh(Scene& scene, Loop_task<Scene>::Tool_type& tool, const std::vector<Face_index>& faces, double length,
                    unsigned times_broken_off) {
   constexpr std::size_t most_faces = 5000000;
   bool goes_on = true;
   const auto may_go_on = [&, journal = scene.log.journal()](const Remeshing_progress&) {
     const std::size_t room = 8 * Remeshing_parameters::operations_between_calls;
-    while (journal != nullptr && journal->room() < room && !journal->has_overrun())
+    const auto is_wanted = [&] { return !scene.ends && scene.times_broken_off == times_broken_off; };
+    while (is_wanted() && journal != nullptr && journal->room() < room && !journal->has_overrun())
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return goes_on = !scene.ends && scene.times_broken_off == times_broken_off;
+    return goes_on = is_wanted();
   };
   const auto is_masked =
       boost::make_function_property_map<Vertex_index>([&mask = scene.mask](Vertex_index v) { return mask[v] > 0; });
-  tool.edit_by([&](auto& edits) {
-    return isotropic_remeshing(faces, edits, length,
-                               CGAL::parameters::number_of_iterations(2).vertex_is_constrained_map(is_masked),
-                               Remeshing_parameters().most_faces(most_faces).progress(may_go_on));
-  });
+  try {
+    tool.edit_by([&](auto& edits) {
+      return isotropic_remeshing(faces, edits, length,
+                                 CGAL::parameters::number_of_iterations(2).vertex_is_constrained_map(is_masked),
+                                 Remeshing_parameters().most_faces(most_faces).progress(may_go_on));
+    });
+  } catch (const Invalid_parameter&) {
+    if (scene.mesh.number_of_faces() <= most_faces)
+      throw;
+    throw Invalid_parameter("the mesh has " + std::to_string(scene.mesh.number_of_faces()) + " triangles, and above " +
+                            std::to_string(most_faces) +
+                            " no new ones are made: remeshing can only make fewer, of a length that no edge exceeds");
+  }
   return goes_on;
 }
 

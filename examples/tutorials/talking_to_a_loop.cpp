@@ -53,6 +53,7 @@ int main(int argc, char** argv) try {
   Scene_feed feed;
   Loop_session session(loop, scene, &queue, &feed, nullptr); // nullptr: no log
 
+  const std::size_t vertices = scene.mesh.num_vertices(), faces = scene.mesh.num_faces();
   std::atomic<bool> ends{false};
   std::thread loop_thread([&] {
     while (!ends) { // the loop's thread
@@ -62,7 +63,7 @@ int main(int argc, char** argv) try {
     session.end();
   });
 
-  // From here on this is the window's thread.
+  // From here on this is the window's thread, and the mesh is the loop's alone.
   std::map<std::uint32_t, Face_change> shown; // or vertices of a graphics card
   std::size_t passed_on = 0;
   const auto follow = [&] {
@@ -95,7 +96,7 @@ int main(int argc, char** argv) try {
     std::this_thread::yield();
   bool is_good = has_moved && answer.done;
 
-  Copy_task<Scene> copying(scene.mesh.num_vertices() + 16, scene.mesh.num_faces() + 32); // the mesh of one tick
+  Copy_task<Scene> copying(vertices + 16, faces + 32); // the mesh of one tick, which may have grown by so much
   Loop_command<Scene> copy;
   copy.kind = Loop_command<Scene>::Kind::task, copy.task = &copying;
   queue.ask(copy);

@@ -311,6 +311,17 @@ check(len(lines) == 19 and "nothing-to-undo" in lines[-1]["refused"], f"refusals
 for i in range(0, 18, 3):
     before, after, state = lines[i:i + 3]
     check(math.dist(before["where"], after["where"]) > 1 and state["edits"] == 0 and state["refused"] == "", f"turned: {lines[i:i + 3]}")
+# A script goes on when it is known whether a press was beside the mesh: it turns the same way without `settle`.
+script = "settle\n" + turns.replace("press left\nsettle\n", "press left\n") + "quit\n"
+at_once, _ = window(BALL, "--no-log", "--samples", 0, script=script, what="turned at once")
+places = lambda lines: [line["where"] for line in lines if "where" in line]
+check(len(at_once) == 18 and places(at_once) == places(lines),
+      f"turned at once: {places(at_once)}, else {places(lines)}")
+# What comes of a press beside the mesh does not turn what the next press holds.
+presses = "move 1195 5\npress left\nrelease\nmove 700 450\npress left\nmove 701 450\nrelease\n"
+script = f"settle\ntool drag\nwhere @0,0,0.5\n{20 * presses}where @0,0,0.5\nquit\n"
+at_once, _ = window(BALL, "--no-log", "--samples", 0, script=script, what="beside, then not")
+check(len(at_once) == 2 and at_once[0] == at_once[1], f"what is held is not turned: {at_once}")
 recorded = open(at("recorded.actions")).read()
 check("press left" in recorded and "wait 0." in recorded, f"a recording: {recorded}")
 window(BALL, "--no-log", "--samples", 0, script=recorded + f"settle\nsave {at('played.off')}\nsettle\nquit\n", what="a recording played")
@@ -380,6 +391,51 @@ try:
 except subprocess.TimeoutExpired:
     process.kill()
     check(False, "a signal does not end remeshing")
+# So does a signal while a save waits behind it, which is made of what there is by then.
+script = f"settle\nremesh 0.004\nsave {at('behind.off')}\nwait 1\nprint\nwait 1000\n"
+process = start(BALL, "--no-log", "--samples", 0, "--size", 200, 150, script=script)
+process.stdout.readline()
+process.send_signal(signal.SIGTERM)
+try:
+    process.communicate(timeout=PATIENCE / 4)
+    is_saved = run(at("behind.off")).returncode == 0
+    check(process.returncode == 0 and is_saved, f"a save behind a remeshing: exit {process.returncode}")
+except subprocess.TimeoutExpired:
+    process.kill()
+    check(False, "a signal does not end a window whose save waits behind a remeshing")
+# Escape closes the list of keys alone: what is under way behind it goes on.
+script = "settle\nkey h\nremesh 0.02\nkey escape\nsettle\nprint\nquit\n"
+lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 200, 150, script=script, what="escape of a list")
+check(lines and lines[0]["refused"] == "" and lines[0]["faces"] > 1600, f"escape of the list of keys: {lines}")
+# What was masked and remeshed can be brushed: masks that were interpolated are masks.
+lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 300, 225, what="a mask that was remeshed", script="""
+key tab
+view 0 1 0
+settle
+brush mask 0.8 1
+click 150 112
+click 140 105
+settle
+remesh 0.05
+settle
+print
+brush inflate 0.5 1
+drag 120 100 180 130 8
+settle
+print
+quit
+""")
+check(len(lines) == 2 and lines[1]["refused"] == "" and lines[1]["edits"] > lines[0]["edits"],
+      f"brushes beside a mask that was remeshed: {lines}")
+# The report is of the last tick: it counts an edit if the log has one, however soon the window ends.
+for wait in ("", "wait 0.05\n", "wait 0.2\n"):
+    log = at("ends_at_once.log")
+    if os.path.exists(log):
+        os.remove(log)
+    window(BALL, "--log", log, "--samples", 0, "--size", 200, 150, "--report", at("report.json"), what="ends at once",
+           script=f"settle\nremesh 0.02\n{wait}quit\n")
+    edits = json.load(open(at("report.json")))["edits"]
+    check((edits > 0) == (b"\nstroke" in bytes_of(log)), f"the report has {edits} edits, and the log others")
 window(precious, "--no-log", "-o", precious, "--samples", 0, script="settle\nkey s\nsettle\nquit\n", what="without a log the mesh may be replaced")
 # A log beside the mesh that is of another mesh: nobody has asked for it.
 write(at("stale.off"), box(2))
@@ -421,6 +477,11 @@ script = f"{unsaved}open {second}\nsettle\nsave {at('unopened.off')}\nsettle\nop
 _, err = window(write(at("first.off"), bytes_of(mesh)), "--samples", 0, "--no-log", script=script, code=3,
                 what="a mesh that is not opened, and another one")
 check("second.off' was not opened" in err, f"which: {err}")
+# That it is asked for twice counts only while nothing is done in between.
+script = f"{unsaved}open {second}\nsettle\n{unsaved}open {second}\nsettle\nprint\nquit\n"
+lines, err = window(mesh, "--samples", 0, "--no-log", script=script, code=3, what="asked for again after more work")
+check("second.off' was not opened" in err and lines[0]["faces"] == 1600,
+      f"asked for again after more work: {lines} {err}")
 small, large = write(at("small.off"), box(1)), write(at("large.off"), box(60))
 script = f"settle\nopen {second}\nopen {small}\nopen {small}\nsettle\nprint\nquit\n"
 lines, _ = window(large, "--samples", 0, "--no-log", script=script, what="one after another")
@@ -547,7 +608,17 @@ _, err = window(write(at("mesh.txt"), "OFF\n"), script="quit\n", code=3, what="a
 check("mesh.txt" in err and "-o" not in err, f"a mesh of another name: {err}")
 _, err = window(second, "--no-log", script="key o\n", code=4, what="the key o of a script")
 check("`open FILE`" in err, f"the key o of a script: {err}")
-for line in ("wait 1e10", "wait -1", "zoom 0", "view 0 0 0", "remesh 0", "scroll 1 alt"):
+for line in ("wait 1e10", "wait -1", "zoom 0", "view 0 0 0", "remesh 0", "scroll 1 alt", "orbit 1e308 0",
+             "orbit 0 -2e6", "move 1e7 0"):
     window(second, "--log", at("lines.log"), script=f"{line}\nquit\n", code=4, what=line)
+# A place of space that is seen nowhere near the window moves nothing, and the view stays one.
+script = "settle\nwhere @0,0,0.5\nmove @1e300,-1e300,1e300\nmove @-1e300,1e300,1e300\nwhere @0,0,0.5\nquit\n"
+lines, _ = window(second, "--samples", 0, "--no-log", script=script, what="places far away")
+check(lines[0] == lines[1], f"the view stays: {lines}")
+# Where the ball cannot be written the message says so.
+os.symlink("sculpt_window_ball.off", at("sculpt_window_ball.off"))
+_, err = window("--samples", 0, "--no-log", script="quit\n", code=5, what="a ball that cannot be written")
+check("sculpt_window_ball.off" in err and "fault of the program" not in err, f"a ball that cannot be written: {err}")
+os.remove(at("sculpt_window_ball.off"))
 
 end()
