@@ -115,7 +115,7 @@ inline Device_description<double> device_from_json(const nlohmann::json& device)
     if (key != "params" && !params.contains(key))
       params[key] = value;
     else if (key != "params" && params[key] != value)
-      throw Bad_request("`" + key + "` is given twice, in `params` and beside it: leave one out");
+      throw Bad_request("`" + key + "` is given twice, in `params` and beside it, as something else: leave one out");
   for (const auto& [key, value] : params.items())
     if (!is_device_key(key))
       throw Bad_request("`" + key + "` means nothing to a device");

@@ -199,7 +199,7 @@ json examples::answer_request(const json& request) {
   const bool has_form_within = params.is_object() && params.contains("form");
   const json form = request.contains("form") ? request["form"] : has_form_within ? params["form"] : json();
   if (has_form_within && params["form"] != form)
-    throw Bad_request("`form` is given twice, in `params` and beside it: leave one out");
+    throw Bad_request("`form` is given twice, in `params` and beside it, as something else: leave one out");
   Request r;
   r.with_dynamics = op == "dynamics";
   r.description = device_description_from_json(params, device_form_from_json(form), r.with_dynamics);

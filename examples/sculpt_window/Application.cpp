@@ -249,17 +249,22 @@ void Application::take_answers() {
 
 void Application::take_reports() {
   take_answers();
+  const auto keep_what_is_shown = [this] {
+    fail_to_open("'" + opening_.front().path + "' is not opened: " + examples::message_of(std::current_exception()),
+                 opens_for_script_);
+  };
   try {
     if (auto opened = background_.take_opened()) {
       const std::string path = opened->path;
       enter(std::move(*opened));
       note_file("open", path); // here: what the hand did meanwhile was done to the mesh before
     }
-  } catch (const Error& error) {
+  } catch (const drawing::Picture_error&) {
+    keep_what_is_shown();
+  } catch (const Error& error) { // names the file
     fail_to_open(examples::message_of(error), opens_for_script_);
-  } catch (const std::exception&) { // such as no memory for it: the mesh that is shown stays
-    fail_to_open("'" + opening_.front().path + "' is not opened: " + examples::message_of(std::current_exception()),
-                 opens_for_script_);
+  } catch (const std::exception&) { // such as no memory for it
+    keep_what_is_shown();
   }
   if (!background_.is_opening() && to_open_.empty())
     opening_.clear();

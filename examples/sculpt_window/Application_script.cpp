@@ -51,7 +51,7 @@ bool Application::is_on_the_way() const {
 }
 
 void Application::play() {
-  if (script_.empty() && options_.screenshot.empty())
+  if (is_done_ || (script_.empty() && options_.screenshot.empty()))
     return;
   frames_due_ = 3;
   if (next_action_ < script_.size()) {
@@ -74,9 +74,11 @@ void Application::play() {
 bool Application::act(const Action& action) {
   using Kind = Action::Kind;
   const auto& n = action.numbers;
-  const bool is_waiting = thread_.is_stroke_waiting() || thread_.is_press_waiting(); // which may have been beside
-  if ((is_waiting && action.kind != Kind::wait) || is_leaving_)
-    return false; // a place a dab
+  // A press may have been beside the mesh, and then moves turn. Of a stroke a place is a dab.
+  const bool is_waiting =
+      thread_.is_press_waiting() ? action.kind == Kind::move : thread_.is_stroke_waiting() && action.kind != Kind::wait;
+  if (is_waiting || is_leaving_)
+    return false;
   if (background_.is_opening() || !has_status())
     return false; // what comes after an `open` is of that mesh
   switch (action.kind) {

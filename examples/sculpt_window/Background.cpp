@@ -19,7 +19,7 @@ bool is_ready(const Future& future) {
 
 /// Has a thread of its own do this. Where there can be none, `otherwise` gives the promise what takes its place.
 template <class Work, class Otherwise>
-auto begun(const Work& work, const Otherwise& otherwise) {
+auto begun(Work work, const Otherwise& otherwise) {
   try {
     return std::async(std::launch::async, work);
   } catch (const std::exception& error) {
@@ -45,16 +45,15 @@ std::optional<Opened> Background::take_opened() {
 
 void Background::save(const Saved_copy& copy, Saved saved) {
   const auto before = saving_.empty() ? std::shared_future<Saved>() : saving_.back();
-  const auto write = [copy, saved, before] {
+  const auto write = [copy, saved, before]() mutable {
     if (before.valid())
       before.wait();
-    Saved written = saved;
     try {
-      written.lost = write_copy(*copy, saved.path);
+      saved.lost = write_copy(*copy, saved.path);
     } catch (...) { // handed on to the window's thread, which tells it
-      written.error = std::current_exception();
+      saved.error = std::current_exception();
     }
-    return written;
+    return std::move(saved);
   };
   saving_.push_back(begun(write, [&saved](auto& promise, const std::exception_ptr& failure) {
                       saved.error = failure;

@@ -253,7 +253,7 @@ bool Sculpting_thread::is_stroke_waiting() const {
 }
 
 bool Sculpting_thread::is_press_waiting() const {
-  return parts_->pressing != nullptr;
+  return parts_->pressing != nullptr || (has_stroke() && parts_->stroke->is_press_waiting());
 }
 
 void Sculpting_thread::go_on(const Pointer& pointer) {

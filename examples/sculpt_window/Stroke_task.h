@@ -17,6 +17,7 @@ public:
   ///@{
   void add(const Pointer& pointer) { added_ += places_.push(pointer); } ///< \pre is_waiting() is false
   bool is_waiting() const { return done_ != added_; }                   ///< the press or a place is yet to be worked at
+  bool is_press_waiting() const { return added_ == 1 && done_ == 0; }   ///< whether it meets the mesh is not known yet
   void end() { ends_ = true; }                                          ///< the button is released
   const Pointed& spot() { return told_spot_.get(); }
   ///@}

@@ -39,7 +39,7 @@ const std::vector<Key>& keys() {
       {"shift+u", GLFW_KEY_U, false, true, Order::redo, "redo"},
       {"ctrl+z", GLFW_KEY_Z, true, false, Order::undo, "undo"},
       {"ctrl+y", GLFW_KEY_Y, true, false, Order::redo, "redo"},
-      {"escape", GLFW_KEY_ESCAPE, false, false, Order::let_go, "let go; break off remeshing"},
+      {"escape", GLFW_KEY_ESCAPE, false, false, Order::let_go, "close what is open; else let go, break off remeshing"},
       {"t", GLFW_KEY_T, false, false, Order::response, "what is blocked slides, or stops"},
       {"s", GLFW_KEY_S, false, false, Order::save, "save"},
       {"ctrl+s", GLFW_KEY_S, true, false, Order::save, "save"},

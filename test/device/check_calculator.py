@@ -296,7 +296,7 @@ ask(of_general, lambda answer: answer["ok"] or failures.append(("the general for
 for line in ("", "{", "[]", "null", "7", '{"op":', '{"form":"ditetra"}', "\xff\xfe", "[" * 5000, '{"theta":NaN}', '{"theta":[1e999,0,0]}',
              json.dumps({**base, "theta": [1, 2]}), json.dumps({**base, "theta": ["a", 1, 2]}), json.dumps({**base, "theta": [float("nan"), 0, 0]}),
              json.dumps({**base, "theta": [float("inf"), 0, 0]}), json.dumps({**base, "op": "fly"}), json.dumps({**base, "form": "hexapod"}),
-             json.dumps({**base, "mode": 0}), json.dumps({**of_general, "mode": 1}),
+             json.dumps({**base, "params": {**base["params"], "form": "general"}}), json.dumps({**base, "mode": 0}), json.dumps({**of_general, "mode": 1}),
              json.dumps({**base, "params": None}), json.dumps({**base, "op": "dynamics"})):
     requests.append(line)
     checks.append(lambda answer, line=line: answer.get("ok") is False and set(answer) == {"ok", "error", "message"} or failures.append(("hostile", answer, line[:60])))

@@ -382,6 +382,9 @@ finest = "settle\nremesh 0.004\nwait 1\n"
 lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 200, 150, what="remeshing that is broken off",
                   script=finest + "key escape\nsettle\nprint\nquit\n", patience=PATIENCE / 4)
 check(lines and "broken off" in lines[0]["refused"], f"remeshing that is broken off: {lines}")
+lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 200, 150, what="a press behind it", patience=PATIENCE / 4,
+                  script=finest + "move 100 75\npress left\nrelease\nwait 0.1\nkey escape\nsettle\nprint\nquit\n")
+check(lines and "broken off" in lines[0]["refused"], f"a press waits for what is broken off: {lines}")
 process = start(BALL, "--no-log", "--samples", 0, "--size", 200, 150, script=finest + "print\nwait 1000\n")
 process.stdout.readline()
 process.send_signal(signal.SIGTERM)
@@ -435,7 +438,8 @@ for wait in ("", "wait 0.05\n", "wait 0.2\n"):
     window(BALL, "--log", log, "--samples", 0, "--size", 200, 150, "--report", at("report.json"), what="ends at once",
            script=f"settle\nremesh 0.02\n{wait}quit\n")
     edits = json.load(open(at("report.json")))["edits"]
-    check((edits > 0) == (b"\nstroke" in bytes_of(log)), f"the report has {edits} edits, and the log others")
+    done = any(line.split(b" ")[0] in (b"insert_edge", b"collapse", b"flip", b"drag") for line in bytes_of(log).split(b"\n"))
+    check((edits > 0) == done, f"the report has {edits} edits, and the log others")
 window(precious, "--no-log", "-o", precious, "--samples", 0, script="settle\nkey s\nsettle\nquit\n", what="without a log the mesh may be replaced")
 # A log beside the mesh that is of another mesh: nobody has asked for it.
 write(at("stale.off"), box(2))
@@ -611,10 +615,6 @@ check("`open FILE`" in err, f"the key o of a script: {err}")
 for line in ("wait 1e10", "wait -1", "zoom 0", "view 0 0 0", "remesh 0", "scroll 1 alt", "orbit 1e308 0",
              "orbit 0 -2e6", "move 1e7 0"):
     window(second, "--log", at("lines.log"), script=f"{line}\nquit\n", code=4, what=line)
-# A place of space that is seen nowhere near the window moves nothing, and the view stays one.
-script = "settle\nwhere @0,0,0.5\nmove @1e300,-1e300,1e300\nmove @-1e300,1e300,1e300\nwhere @0,0,0.5\nquit\n"
-lines, _ = window(second, "--samples", 0, "--no-log", script=script, what="places far away")
-check(lines[0] == lines[1], f"the view stays: {lines}")
 # Where the ball cannot be written the message says so.
 os.symlink("sculpt_window_ball.off", at("sculpt_window_ball.off"))
 _, err = window("--samples", 0, "--no-log", script="quit\n", code=5, what="a ball that cannot be written")

@@ -85,10 +85,10 @@ void check_triangles_about(const Mesh& mesh, typename Mesh::Vertex_index v) {
 /// A mesh that is closed and embedded stays so up to `target` if and only if the result is empty; otherwise it stays so
 /// up to, and not at, the time of the impacts (doc/proofs/exact_sweeps.md, "Completeness"). On other meshes the answer
 /// is about the three sweeps only. A vertex without faces touches faces, and nothing touches it: it is no part of the
-/// surface. Where `target` is the place of v there is none. \throw Unknown_vertex, Out_of_range; Error if v is on a
-/// boundary, or has two edges to one vertex, or a face is no triangle Cost: reads every face once; the sweeps cost
-/// valence times the candidates whose boxes meet the swept star's. \param traits decide the sweeps, a model of
-/// SweptCollisionTraits_3: with another than the default the answer is as right as its sweeps are
+/// surface. Where `target` is the place of a vertex of faces there is none. \throw Unknown_vertex, Out_of_range; Error
+/// if v is on a boundary, or has two edges to one vertex, or a face is no triangle Cost: reads every face once; the
+/// sweeps cost valence times the candidates whose boxes meet the swept star's. \param traits decide the sweeps, a model
+/// of SweptCollisionTraits_3: with another than the default the answer is as right as its sweeps are
 template <class Mesh,
           class Traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel>>
 Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v,

@@ -252,6 +252,23 @@ BOOST_AUTO_TEST_CASE(a_journal_that_nobody_writes_ends_the_run) {
   BOOST_TEST((d.loop.interaction().fault() == Loop_fault::none));
 }
 
+// Who asks for a restart does not know yet of what has come at the end of the tick before.
+BOOST_AUTO_TEST_CASE(a_restart_that_was_asked_for_before_an_overrun_was_seen_does_not_hide_it) {
+  Queue d(true);
+  d.loop.tool().take(*d.scene->mesh.vertices_begin());
+  for (int k = 0; k < 1100 && !d.journal.has_overrun(); ++k)
+    d.tick();
+  BOOST_REQUIRE((d.loop.interaction().fault() == Loop_fault::log));
+  d.ask(Command::Kind::restart, 1);
+  d.tick();
+  BOOST_TEST((d.loop.interaction().fault() == Loop_fault::log)); // once more
+  d.tick();                                                      // which says so
+  d.ask(Command::Kind::restart, 2);
+  for (int k = 0; k < 10; ++k)
+    d.tick();
+  BOOST_TEST((d.loop.interaction().fault() == Loop_fault::none));
+}
+
 // Of faults the first stays: what is lost is said after it has been seen to.
 BOOST_AUTO_TEST_CASE(a_journal_that_overruns_beside_another_fault_ends_the_run_after_the_restart) {
   for (const bool is_restarted_at_once : {false, true}) {

@@ -161,26 +161,31 @@ BOOST_AUTO_TEST_CASE(what_a_question_within_an_undo_finds_out_about_the_scene_is
 
 // It may be far out: the face that is new is near then as far out as it goes.
 BOOST_AUTO_TEST_CASE(a_probe_begun_within_a_creation_keeps_the_clearance_of_the_new_vertex) {
-  Mesh mesh = meshes::to_mesh(meshes::cube());
-  Asked_sculptor sculptor(mesh);
-  Mesh::Face_index top;
-  for (const auto f : mesh.faces()) {
-    bool is_on_top = true, is_at_front = false;
-    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
-      is_on_top &= mesh.point(v).z() == 1, is_at_front |= mesh.point(v) == Mesh::Point(1, 0, 1);
-    if (is_on_top && is_at_front)
-      top = f;
+  for (const bool has_own_clearance : {false, true}) {
+    Mesh mesh = meshes::to_mesh(meshes::cube());
+    Asked_sculptor sculptor(mesh, has_own_clearance ? parameters::clearance(1e-9) : Sculptor_parameters());
+    Mesh::Face_index top;
+    for (const auto f : mesh.faces()) {
+      bool is_on_top = true, is_at_front = false;
+      for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+        is_on_top &= mesh.point(v).z() == 1, is_at_front |= mesh.point(v) == Mesh::Point(1, 0, 1);
+      if (is_on_top && is_at_front)
+        top = f;
+    }
+    BOOST_REQUIRE(top.is_valid());
+    int near = 0, asked = 0;
+    const Mesh::Point beside(0.3, -0x1p-27, 1.5);
+    sculptor.visitor().ask = [&] { ++asked, near += !sculptor.probe(beside); };
+    const auto made = sculptor.insert_on_face(top, {0.3, 0.0, 0x1p30});
+    sculptor.visitor().ask = nullptr;
+    BOOST_REQUIRE(static_cast<bool>(made));
+    BOOST_TEST(asked > 1);
+    BOOST_TEST(near == asked - 1); // the first is asked before the vertex is there
+    if (has_own_clearance)
+      BOOST_CHECK_THROW(sculptor.probe(beside), Invalid_parameter); // the scene has outgrown it
+    else
+      BOOST_TEST(!sculptor.probe(beside));
   }
-  BOOST_REQUIRE(top.is_valid());
-  int near = 0, asked = 0;
-  const Mesh::Point beside(0.3, -0x1p-30, 1.5);
-  sculptor.visitor().ask = [&] { ++asked, near += !sculptor.probe(beside); };
-  const auto made = sculptor.insert_on_face(top, {0.3, 0.0, 0x1p30});
-  sculptor.visitor().ask = nullptr;
-  BOOST_REQUIRE(static_cast<bool>(made));
-  BOOST_REQUIRE(!sculptor.probe(beside));
-  BOOST_TEST(asked > 1);
-  BOOST_TEST(near == asked - 1); // the first is asked before the vertex is there
 }
 
 // The index is that of a vertex that was removed, so that an old answer would be there, and wrong.

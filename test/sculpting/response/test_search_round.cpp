@@ -101,6 +101,27 @@ BOOST_AUTO_TEST_CASE(each_trial_is_made_once_or_left_out_where_it_costs_more_tha
   BOOST_TEST(came_back > 100);
 }
 
+// A target beyond reach is searched for nowhere.
+BOOST_AUTO_TEST_CASE(a_drag_that_comes_to_no_search_knows_nothing_of_the_last_one) {
+  Search_round round;
+  for (const Vector& aim : {target, other_target}) {
+    Work work;
+    work.begin(10);
+    round.begin(true);
+    round.search_at(place, aim, lengths);
+    BOOST_TEST(round.is_due(Search::corner, work));
+    work.spend(11);
+    round.end(work);
+  }
+  BOOST_TEST(round.has_left_out());
+  BOOST_TEST(!round.is_for_its_target());
+  for (const bool is_bounded : {true, false}) {
+    round.begin(is_bounded);
+    BOOST_TEST(!round.has_left_out());
+    BOOST_TEST(round.is_for_its_target());
+  }
+}
+
 BOOST_AUTO_TEST_CASE(elsewhere_without_a_bound_and_after_its_end_a_search_begins_anew) {
   for (const bool moves : {false, true})
     for (const bool is_bounded : {false, true})

@@ -15,12 +15,15 @@ public:
     include(Scene_extent(mesh).largest);
   }
 
-  double largest_coordinate() const { return largest_; }
+  double largest_coordinate() const { return std::max(largest_, expected_); }
 
   /// All vertices are where they are.
   void include_all() { include(Scene_extent(*mesh_).largest); }
   /// A vertex has come to p.
   void include(const Coordinates& p) { include(largest_magnitude(p)); }
+  /// A vertex may come to p in an edit, and may be asked about before that is over.
+  void expect(const Coordinates& p) { expected_ = largest_magnitude(p); }
+  void expect_none() { expected_ = 0; }
   /// Vertices may be again where any has been.
   void include_the_past() { largest_ = largest_ever_; }
 
@@ -45,6 +48,7 @@ private:
   std::optional<double> checked_; ///< a clearance that served the scene when it was first used
   double largest_ = 0;      ///< magnitude of a coordinate
   double largest_ever_ = 0; ///< the same, with those that vertices have had
+  double expected_ = 0;     ///< the same, of a vertex that is not in the mesh yet
 
   void include(double coordinate) {
     largest_ = std::max(largest_, coordinate);

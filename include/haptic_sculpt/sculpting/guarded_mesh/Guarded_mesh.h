@@ -208,8 +208,8 @@ public:
     return hit;
   }
 
-  /// A vertex is to be created at p: a visitor may ask before the edit is over.
-  void expect_vertex(const Coordinates& p) { scene_.include(p); }
+  /// A vertex is to be created at p by the edit under way. \pre within edited()
+  void expect_vertex(const Coordinates& p) { scene_.expect(p); }
 
   /// Runs an edit between looking for changes by others and noting what it changed.
   template <class Edit_function>
@@ -350,7 +350,7 @@ private:
   /// What a visitor has asked for within a change was looked up in a mesh on its way: it is not used on.
   struct Forget_at_end {
     Guarded_mesh& mesh;
-    ~Forget_at_end() { mesh.hand_.let_go(), mesh.probe_.let_go(); }
+    ~Forget_at_end() { mesh.hand_.let_go(), mesh.probe_.let_go(), mesh.scene_.expect_none(); }
   };
 
   /// For questions about the surface: lets nobody go.

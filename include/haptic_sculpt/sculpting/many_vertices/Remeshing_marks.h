@@ -61,7 +61,8 @@ public:
 
   /// Constrains the edges of the range at which the normals of the faces differ by more than this angle.
   void constrain_features(const Scaled_points<Mesh>& points, double degrees) {
-    constexpr double rounding = 0x1p-40; // rad: of the two normals and their products, and more
+    // rad: what rounding bends of a flat side, whose triangles are 2^-20 of the coordinates in height, and more
+    constexpr double rounding = 0x1p-30;
     const double largest = degrees * (CGAL_PI / 180) + rounding;
     for (const Edge_index e : mesh_->edges()) {
       if (!is_inside(e))
