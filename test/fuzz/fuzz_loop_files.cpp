@@ -58,7 +58,7 @@ std::vector<std::string> good_files() {
   for (const char* line : {"0x1p-1 0x1p-2 0x1p-3 0x0p+0 -0x1p-4 0x1p-5 1 0x1p-10\n", "1 1.1 0.9 0 0 0 0 0.001\n"})
     recording += line;
   return {'\0' + device,
-          '\0' + R"({"form":"general","params":)" + device + "}",
+          '\0' + std::string(R"({"form":"general","params":)") + device + "}",
           '\1' + std::string(R"({"mass": [0, 0.2], "stiffness": [2000, 300], "damping": [2, 3]})"),
           '\1' + std::string(R"({"name": "finger"})"),
           '\2' + std::string("t,x,y,z,button\n0,0.01,0.02,0.03,0\n0.5,0.01,-0.02,0.03,1\r\n1e0,1e-3,2,3,2\n"),

@@ -78,11 +78,10 @@ BOOST_AUTO_TEST_CASE(a_grab_may_end_or_move_elsewhere_within_its_own_drag) {
       BOOST_TEST(grab->drag_to(target).reached);
     heard = nullptr;
     BOOST_TEST((mesh.point(Vertex_index(1)) == target));
-    auto& left = other ? *other : *grab;
-    if (other || grab) {
-      BOOST_TEST((left.vertex() == Vertex_index(1)));
+    if (Grab<Heard_sculptor>* const left = other ? other.get() : grab.get()) {
+      BOOST_TEST((left->vertex() == Vertex_index(1)));
       const auto taken = sculptor.grab(Vertex_index(2));
-      BOOST_TEST((left.drag_to(Point_3(0, 0, 0)).position == target)); // stale, and where it was left
+      BOOST_TEST((left->drag_to(Point_3(0, 0, 0)).position == target)); // stale, and where it was left
     }
     sculptor.check_unchanged();
     return other || grab;
