@@ -8,8 +8,8 @@
 ///
 /// No result depends on the model. Answers name no face twice and no dead face, in any order. Coordinates are finite doubles of any
 /// size. A query may change the model, so one belongs to one thread at a time. Where faces_inserted(), faces_removed(), or
-/// faces_moved() within an edit throws, the Sculptor ends (doc/proofs/edits.md, "Memory that runs out"): a model that allocates there has
-/// `reserve()` of its own.
+/// faces_moved() within an edit throws, the Sculptor ends (doc/proofs/edits.md, "Memory that runs out"): a model that allocates
+/// there has `reserve()` of its own.
 template <class Mesh>
 class BroadPhase : public haptic_sculpt::Broad_phase_base<Mesh, BroadPhase<Mesh>> {
 public:

@@ -300,6 +300,8 @@ for line in ("", "{", "[]", "null", "7", '{"op":', '{"form":"ditetra"}', "\xff\x
              json.dumps({**base, "params": None}), json.dumps({**base, "op": "dynamics"})):
     requests.append(line)
     checks.append(lambda answer, line=line: answer.get("ok") is False and set(answer) == {"ok", "error", "message"} or failures.append(("hostile", answer, line[:60])))
+ask({"form": "ditetra", "op": "modes", "params": {**good["params"], "R": 0.5}, "theta": [1, 1, 1]},  # too far apart
+    lambda answer: answer.get("n_modes") == 0 and answer.get("ok") is True or failures.append(("no mode", answer, "R")))
 for form in ("ditetra", "general"):
     for op in ("forward", "dynamics", "modes", "inverse"):
         for key in ("R", "l1", "l2", "r", "m1", "M"):

@@ -138,7 +138,8 @@ for kind in ("nan", "jump", "stall", "singular", "torque"):
     check(vector(last, "fx", "fy", "fz", "tau1", "tau2", "tau3") == [0] * 6, f"{kind} ends at zero")
 
 # A log that fails lets go in the run; no reading after that is replayed.
-run(MESH, "--no-wait", "--log", at("failed.log"), "--fault", "log@1.2", "--record", at("l.rec"), "-o", at("l.off"), code=8)
+run(MESH, "--no-wait", "--log", at("failed.log"), "--fault", "log@1.2", "--record", at("l.rec"), "-o", at("l.off"),
+    code=8)
 run(MESH, "--replay", at("l.rec"), "-o", at("lr.off"))
 check(open(at("l.off")).read() == open(at("lr.off")).read(), "a replay of a run whose log failed has the same mesh")
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`sculpt --repair` and `--orient`: what they mend, what they say, what they leave alone."""
+import hashlib
 import json
 import os
 import tempfile
@@ -167,6 +168,8 @@ def orients(folder):
     check(run(alone, "--repair", "-o", out).returncode == 0 and len(points(out)) == n, "which a repair leaves out")
     octahedron = write(f"{folder}/octahedron.off", OCTAHEDRON)
     check(run(octahedron).stderr == "", "nothing is remarked where there is nothing")
+    about = write(f"{folder}/about.script", f"mesh {hashlib.sha256(bytes_of(octahedron)).hexdigest()}\n")
+    check(run(octahedron, "--repair", "--script", about).returncode == 0, "what a repair leaves as it is keeps its hash")
     whole = f"{folder}/whole.off"
     fails(5, ["long.json"], run(octahedron, "--repair", "--repair-report", f"{folder}/long.json", "-o", whole, limit=300), "a full disk")
     check(points(whole) == points(octahedron), "a full disk costs the file that does not fit")

@@ -87,6 +87,11 @@ def main():
         for text in (FOLDED, FOLDED.replace("2 1 3\n", "2 1 3.5\n")):
             fails(3, ["face 0", "folds"], run(write(path, text), "--triangulate", "--report", f"{folder}/folds.json"), "a folded hexagon")
             check(json.load(open(f"{folder}/folds.json"))["faults"]["non_triangular_faces"] == [0], "which the report names")
+        on_a_line = "OFF\n4 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n4 0 1 2 3\n4 3 2 1 0\n"
+        fails(3, ["face 0 (and 1 more)"], run(write(path, on_a_line), "--triangulate", "--delta", 1e-3, "--report",
+                                              f"{folder}/two.json"), "two polygons without area")
+        told = json.load(open(f"{folder}/two.json"))
+        check(told["faults"]["non_triangular_faces"] == [0, 1] and told["delta"] == 1e-3, f"both are named: {told}")
         for length, is_refused in (("1e-5", True), ("1e-300", True), ("0.05", False)):
             report = f"{folder}/report.json"
             done = run(write(path, NEEDLE), "--script", "-", "--report", report, script=f"remesh {length}\n")

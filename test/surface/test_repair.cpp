@@ -5,6 +5,7 @@
 
 #include "surface/identical.h"
 #include "surface/open_edge.h"
+#include "surface/repair/count_of.h"
 #include "surface/soup_of.h"
 
 #include <meshes/broken_meshes.h>
@@ -32,6 +33,7 @@ using haptic_sculpt::Repair_parameters;
 using haptic_sculpt::Repair_report;
 using haptic_sculpt::validate;
 using haptic_sculpt::validate_soup;
+using haptic_sculpt::test::count_of;
 using haptic_sculpt::test::soup_of;
 using meshes::Mesh;
 using meshes::Point_3;
@@ -44,16 +46,6 @@ mpq_class squared_distance(const Point_3& p, const Point_3& q) {
     const mpq_class d = mpq_class(p[k]) - mpq_class(q[k]);
     sum += d * d;
   }
-  return sum;
-}
-
-std::size_t count_of(const Repair_report& report, Repair_kind kind, const std::string& what) {
-  std::size_t sum = 0;
-  for (const auto& step : report.steps)
-    if (step.kind == kind)
-      for (const auto& count : step.counts)
-        if (count.what == what)
-          sum += count.number;
   return sum;
 }
 
@@ -161,53 +153,6 @@ BOOST_AUTO_TEST_CASE(a_polygon_of_any_size_is_divided) {
   BOOST_TEST(soup.points.size() == 6u);
   BOOST_TEST(soup.number_of_faces() == 8u);
   BOOST_TEST(validate_soup(soup).is_valid());
-}
-
-// A polygon that meets itself in a corner is divided there, even where that is all there is to do.
-BOOST_AUTO_TEST_CASE(a_repeated_corner_of_a_polygon_is_a_step) {
-  Face_soup soup;
-  for (int k = 0; k < 4; ++k)
-    soup.add_point(k == 1, k == 2, k == 3);
-  soup.add_face(std::array{0, 2, 1, 0}); // the corner 0 twice
-  for (const auto& f : {std::array{0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
-    soup.add_face(f);
-  BOOST_TEST(!validate_soup(soup).is_valid());
-  const Repair_report report = repair(soup);
-  BOOST_TEST(report.is_repaired());
-  BOOST_TEST(count_of(report, Repair_kind::drop_faces, "polygons with a repeated corner divided there") == 1u);
-  BOOST_TEST(validate_soup(soup).is_valid());
-}
-
-// What is divided makes a face more, and a doubled one is a face less.
-BOOST_AUTO_TEST_CASE(doubled_faces_are_counted_beside_polygons_that_are_divided) {
-  Face_soup soup;
-  for (int k = 0; k < 4; ++k)
-    soup.add_point(k == 1, k == 2, k == 3);
-  soup.add_face(std::array{0, 2, 1, 0, 1, 3}); // two faces that meet in the corner 0
-  for (const auto& f : {std::array{1, 2, 3}, {2, 0, 3}, {3, 2, 0}})
-    soup.add_face(f);
-  const Repair_report report = repair(soup);
-  BOOST_TEST(report.is_repaired());
-  BOOST_TEST(count_of(report, Repair_kind::drop_faces, "polygons with a repeated corner divided there") == 1u);
-  BOOST_TEST(count_of(report, Repair_kind::drop_faces, "doubled faces dropped") == 1u);
-  BOOST_TEST(soup.number_of_faces() == 4u);
-}
-
-// Points whose distances have squares of 0 keep what is theirs.
-BOOST_AUTO_TEST_CASE(attributes_of_points_that_do_not_move_stay_beside_points_that_are_far) {
-  Triangle_list list = meshes::tetrahedron().scale_and_move(1, 5, 0, 0);
-  list += meshes::tetrahedron().scale_and_move(0x1p-600, 0, 0, 0);
-  Face_soup soup = soup_of(list);
-  soup.attributes.push_back({"number", haptic_sculpt::Vertex_attribute::Type::float64, {}});
-  for (std::size_t v = 0; v < soup.points.size(); ++v)
-    soup.attributes[0].values.push_back(static_cast<double>(v));
-  soup.points.push_back(soup.points[0]); // without a face, so that there is something to repair
-  soup.attributes[0].values.push_back(-1);
-  const std::vector<Point_3> before = soup.points;
-  BOOST_TEST(repair(soup).is_repaired());
-  BOOST_REQUIRE(soup.points.size() == before.size() - 1);
-  for (std::size_t v = 0; v < soup.points.size(); ++v)
-    BOOST_TEST((soup.points[v] == before[static_cast<std::size_t>(soup.attributes[0].values[v])]));
 }
 
 // Distances that are known beforehand, in integers and powers of two.

@@ -83,14 +83,14 @@ using Vertex_face_sweep_3 = Sweep_3<Impact_feature::vertex_face, K, Counters>;
 /// Does an edge from the moving vertex to `a` touch the closed segment `b`, `c` while the vertex goes from `s` to `t`?
 ///
 /// Exact for all finite doubles (the 1997 paper, 3.2.1, test II: triangle sta meets segment bc). s, t, a may coincide
-/// or be collinear. The time is 0 where `a` itself lies on bc. Where b and c are one point that is the hull.
+/// or be collinear. The time is 0 where `a` itself lies on bc. b and c may be one point, too.
 template <class K, class Counters = No_filter_counters>
 using Edge_edge_sweep_3 = Sweep_3<Impact_feature::edge_edge, K, Counters>;
 
 /// Does a face from the moving vertex to the edge `a`, `b` touch the point `c` while the vertex goes from `s` to `t`?
 ///
 /// Exact for all finite doubles (the 1997 paper, 3.2.1, test III: tetrahedron stab contains c). The tetrahedron may be
-/// flat. The time is 0 where `c` lies on ab.
+/// flat. a and b may be one point. The time is 0 where `c` lies on ab.
 template <class K, class Counters = No_filter_counters>
 using Face_vertex_sweep_3 = Sweep_3<Impact_feature::face_vertex, K, Counters>;
 

@@ -57,17 +57,19 @@ struct Pose_loop_parameters {
   /// As all loops have them. \throw Error naming what cannot be used
   Haptic_parameters checked() const {
     device.check();
-    constexpr double none = std::numeric_limits<double>::infinity(), longest_stall = Watchdog_limits::longest_stall;
-    internal::require_number("Pose_loop_parameters::speed, the speed that is a jump,", "m/s", speed, 1e-3, none);
+    using Limits = Watchdog_limits;
+    constexpr double none = std::numeric_limits<double>::infinity();
+    internal::require_number("Pose_loop_parameters::speed, the speed that is a jump,", "m/s", speed, Limits::least_rate,
+                             none);
     if (has_force())
-      internal::require_number("Pose_loop_parameters::stall_time, the time that is a stall,", "s", stall_time, 1e-4,
-                               longest_stall);
+      internal::require_number("Pose_loop_parameters::stall_time, the time that is a stall,", "s", stall_time,
+                               Limits::shortest_stall, Limits::longest_stall);
     Haptic_parameters all;
     all.tick = tick, all.delay = delay, all.coupling = coupling, all.snap = snap, all.limits = limits,
     all.reach = reach;
     all.work_limit = work_limit, all.work_of_a_face = work_of_a_face, all.controller_damping = controller_damping;
     all.virtual_mass = virtual_mass, all.button_quiet_time = button_quiet_time;
-    all.watchdog.joint_rate = speed, all.watchdog.stall_time = has_force() ? stall_time : longest_stall;
+    all.watchdog.joint_rate = speed, all.watchdog.stall_time = has_force() ? stall_time : Limits::longest_stall;
     all.check();
     return all;
   }

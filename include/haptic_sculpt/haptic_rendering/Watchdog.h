@@ -33,7 +33,9 @@ inline const char* name_of(Loop_fault fault) {
 
 /// Bounds beyond which a reading is a fault.
 struct Watchdog_limits {
-  static constexpr double longest_stall = 10; ///< s, the most that stall_time may be
+  static constexpr double longest_stall = 10;    ///< s, the most that stall_time may be
+  static constexpr double shortest_stall = 1e-4; ///< s, the least: any system pauses for as long
+  static constexpr double least_rate = 1e-3;     ///< per s, of joint_rate: slower than any hand, so that a 0 is refused
 
   double joint_rate = 100;     ///< rad/s; a hand at 0.3 m/s turns no joint faster than 15 at cond(J) <= 10
   double stall_time = 0.02;    ///< s between two ticks; a device has to let go by itself about then
@@ -44,8 +46,9 @@ struct Watchdog_limits {
   /// \throw Error naming what cannot be used
   void check() const {
     constexpr double none = std::numeric_limits<double>::infinity();
-    internal::require_number("Watchdog_limits::joint_rate, the rate that is a jump,", "per s", joint_rate, 1e-3, none);
-    internal::require_number("Watchdog_limits::stall_time, the time that is a stall,", "s", stall_time, 1e-4,
+    internal::require_number("Watchdog_limits::joint_rate, the rate that is a jump,", "per s", joint_rate, least_rate,
+                             none);
+    internal::require_number("Watchdog_limits::stall_time, the time that is a stall,", "s", stall_time, shortest_stall,
                              longest_stall);
     internal::require_number("Watchdog_limits::condition, cond(J) that is singular,", "", condition, 1, 1e12);
     internal::require_number("Watchdog_limits::torque_margin, the margin of the torques,", "", torque_margin, 1, none);

@@ -8,6 +8,10 @@
 #include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 namespace haptic_sculpt {
 
 /// A point with a coordinate that is not a finite number was given as a target.
@@ -88,7 +92,7 @@ void check_triangles_about(const Mesh& mesh, typename Mesh::Vertex_index v) {
 /// surface. Where `target` is the place of a vertex of faces there is none. \throw Unknown_vertex, Out_of_range; Error
 /// if v is on a boundary, or has two edges to one vertex, or a face is no triangle Cost: reads every face once; the
 /// sweeps cost valence times the candidates whose boxes meet the swept star's. \param traits decide the sweeps, a model
-/// of SweptCollisionTraits_3: with another than the default the answer is as right as its sweeps are
+/// of SweptCollisionTraits_3: with another than the default the answer is as right as its sweeps are.
 template <class Mesh,
           class Traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel>>
 Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v,

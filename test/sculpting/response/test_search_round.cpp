@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(each_trial_is_made_once_or_left_out_where_it_costs_more_tha
       for (std::size_t i = 0; i < searcher.costs.size(); ++i) {
         const auto& aims = made[{searcher.search, i}];
         BOOST_REQUIRE(aims.size() == (searcher.costs[i] > bound ? 0u : 1u));
-        BOOST_TEST((!is_proven || is_alike(aims[0], aim, lengths)));
+        BOOST_TEST((!is_proven || are_one_target(aims[0], aim, lengths)));
       }
     BOOST_TEST(searchers.back().memory.holds(place, aim, lengths) == is_proven);
     if (is_elsewhere.size() == 1 && too_costly == 0)

@@ -6,9 +6,9 @@
 
 namespace haptic_sculpt::internal {
 
-/// A target is nearer by as much as it has moved at most: below what clearances can feign a search for either finds the
-/// same.
-inline bool is_alike(const Vector& target, const Vector& other, const Slide_lengths& lengths) {
+/// Whether a search for either finds the same: a target is nearer by as much as it has moved at most, and clearances
+/// can feign more.
+inline bool are_one_target(const Vector& target, const Vector& other, const Slide_lengths& lengths) {
   return length(minus(target, other)) <= 4 * lengths.clearance;
 }
 
@@ -27,7 +27,7 @@ public:
     return is_known_ && length(minus(place, place_)) <= lengths.settled();
   }
   bool holds(const Vector& place, const Vector& target, const Slide_lengths& lengths) const {
-    return is_at(place, lengths) && is_alike(target, target_, lengths);
+    return is_at(place, lengths) && are_one_target(target, target_, lengths);
   }
   const Vector& target() const { return target_; } ///< that was noted last
 

@@ -37,7 +37,7 @@ public:
       place_ = place, target_ = target;
     }
     has_searched_ = true;
-    is_for_other_ = !is_alike(target, target_, lengths);
+    is_for_other_ = !are_one_target(target, target_, lengths);
   }
   /// To be asked once before each trial of a search. False where an earlier drag has made it, and where the work is
   /// spent.
