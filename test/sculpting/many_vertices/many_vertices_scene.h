@@ -23,6 +23,11 @@ using Vertex_index = Mesh::Vertex_index;
 using Edge_index = Mesh::Edge_index;
 using Face_index = Mesh::Face_index;
 using Point_map = Mesh::Property_map<Vertex_index, Point_3>;
+using Transformation = CGAL::Aff_transformation_3<meshes::Kernel>;
+
+inline Transformation translation(const Vector_3& d) {
+  return {CGAL::TRANSLATION, d};
+}
 
 struct Named_mesh {
   std::string name;

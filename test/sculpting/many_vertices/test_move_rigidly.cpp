@@ -13,8 +13,6 @@ using namespace haptic_sculpt::test;
 
 namespace {
 
-using Transformation = CGAL::Aff_transformation_3<meshes::Kernel>;
-
 /// About an axis through a point, by Rodrigues' formula in long doubles.
 struct Turn {
   std::array<long double, 3> axis, centre;
@@ -47,10 +45,6 @@ struct Turn {
     return {{u.x(), u.y(), u.z()}, {c.x(), c.y(), c.z()}, angle};
   }
 };
-
-Transformation translation(const Vector_3& d) {
-  return {CGAL::TRANSLATION, d};
-}
 
 /// Notes how the mesh stands whenever many vertices have moved.
 struct State_visitor : Default_edit_visitor {

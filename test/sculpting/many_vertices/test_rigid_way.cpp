@@ -15,16 +15,6 @@
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
 
-namespace {
-
-using Transformation = CGAL::Aff_transformation_3<meshes::Kernel>;
-
-Transformation translation(const Vector_3& d) {
-  return {CGAL::TRANSLATION, d};
-}
-
-} // namespace
-
 BOOST_AUTO_TEST_CASE(what_is_no_rigid_motion_is_refused) {
   Mesh mesh = meshes::to_mesh(meshes::cube());
   Sculptor<Mesh> sculptor(mesh);
