@@ -80,7 +80,7 @@ def main():
     page = environment.get_template("page.html.jinja").render(
         run=run, parts=parts, steps=rows_of_steps(options.folder, run["steps"]), broken=results.broken_promises(options.folder),
         failures=failing_cases.rows(options.folder, run["steps"]),
-        promises=len(results.promises(options.folder)))
+        promises=sum(p["asked"] > 0 for _, p in results.promises(options.folder)))
     target = options.folder / "index.html"
     target.with_suffix(".new").write_text(page)
     target.with_suffix(".new").replace(target)

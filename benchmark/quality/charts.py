@@ -89,16 +89,16 @@ def whole_drags(report):
 
 def responses(report):
     of = {r: [row for row in report["chart"] if row["response"] == r] for r in ("slide", "stop", "paper")}
-    mean = {r: (sum(x["median_ns"] for x in rows) / len(rows) * 1e-9, 1 - sum(x["share_at_minimum"] for x in rows) / len(rows),
+    mean = {r: (sum(x["median_ns"] for x in rows) / len(rows) * 1e-9, 1 - sum(x["at_minimum"] for x in rows) / max(1, sum(x["judged"] for x in rows)),
                 sum(x["mean_distance_left"] for x in rows) / len(rows)) for r, rows in of.items() if rows}
     names = {"slide": "slide", "stop": "stop", "paper": "the paper's walk"}
-    rows = [[x["scene"], x["response"], x["drags"], f"{x['mean_distance_left']:.3g}", percent(x["share_at_minimum"]), f"{x['mean_legs']:.2g}",
+    rows = [[x["scene"], x["response"], x["drags"], f"{x['mean_distance_left']:.3g}", f"{x['at_minimum']} of {x['judged']}", f"{x['mean_legs']:.2g}",
              seconds_text(x["mean_ns"] * 1e-9)] for x in report["chart"]]
     refused = [Table("Meshes refused", ["file", "reason"], [[r["file"], r["reason"]] for r in report["refused"]])] if report.get("refused") else []
-    return [Finding("responses", f"A blocked slide ends at a nearest point in {percent(1 - mean['slide'][1])} of the drags, in {seconds_text(mean['slide'][0])}; "
-                    f"the paper's walk in {percent(1 - mean['paper'][1])}.", percent(1 - mean["slide"][1]), "of the slides end at a local minimum",
-                    speed_error([(names[r], m[0], m[1]) for r, m in mean.items()], "share of drags not at a minimum", "median time of a drag"),
-                    "Time of a drag against the share of drags that do not end at a minimum, by response",
+    return [Finding("responses", f"A slide that does not arrive ends at a nearest point in {percent(1 - mean['slide'][1])} of the drags, in {seconds_text(mean['slide'][0])}; "
+                    f"the paper's walk in {percent(1 - mean['paper'][1])}.", percent(1 - mean["slide"][1]), "of the slides that do not arrive end at a local minimum",
+                    speed_error([(names[r], m[0], m[1]) for r, m in mean.items()], "share of these not at a minimum", "median time of a drag"),
+                    "Time of a drag against the share of those that end neither at the target nor at a minimum, by response",
                     [Table("Each scene", ["scene", "response", "drags", "distance left, half extents", "at a minimum", "legs", "mean"], rows), *refused],
                     picture="response_quality"),
             Finding("responses", f"What is left to the target is {mean['slide'][2]:.3g} half extents with a slide, {mean['stop'][2]:.3g} with a stop.",

@@ -322,7 +322,8 @@ int main(int argc, char** argv) {
         given.empty() ? measure(m, rows) : measure_motion(m, rows);
         for (std::size_t k = before; k < rows.size(); ++k) {
           rows[k]["unit"] = unit;
-          if (rows[k]["method"] != "halving on does_self_intersect")
+          const bool is_of_cgal = rows[k]["method"].get<std::string>().find("does_self_intersect") != std::string::npos;
+          if (!is_of_cgal)
             ++asked, broken += !rows[k]["valid"].get<bool>();
         }
       }

@@ -45,6 +45,12 @@ def mesh_and_function(row):
     return row["mesh"].replace("_", " "), row["function"]
 
 
+def median_ratio(ratios, form):
+    """Of those that are: what takes no tick of the clock alone has none. \return text, of none nothing"""
+    some = [ratio for ratio in ratios if ratio is not None]
+    return f"{median(some):{form}}" if some else ""
+
+
 def medians(rows, field, form):
     return " / ".join(f"{median(row[way][field] for row in rows):{form}}" for way in ("plain", "guarded"))
 
@@ -68,7 +74,7 @@ def tell_functions(moved):
         shares = [100 * row["share"] for row in of]
         print_row(function, way, len(of), sum(row["plain"]["pairs"] > 0 for row in of),
                   "" if way == "functor" else f"{min(shares):.1f}, {median(shares):.1f}",
-                  medians(of, "seconds", ".2g"), f"{median(row['time_ratio'] for row in of):.1f}")
+                  medians(of, "seconds", ".2g"), median_ratio((row["time_ratio"] for row in of), ".1f"))
     begin_table("mesh", "function", "way", "pairs alone", "% of the way", "least angle", "mean least angle",
                 "seconds guarded", "drags")
     for row in moved:
@@ -84,7 +90,7 @@ def tell_remeshing(remeshed):
         print_row(*mesh_and_function(row), row["plain"]["pairs"], of_both(row, "least_angle", ".3g"),
                   of_both(row, "mean_least_angle", ".1f"), of_both(row, "valence_six", ".0f", 100),
                   of_both(row, "length", ".2f"), of_both(row, "hausdorff", ".3f"),
-                  f"{row['refused']} of {row['asked']}", of_both(row, "seconds", ".3f"), f"{row['time_ratio']:.2f}")
+                  f"{row['refused']} of {row['asked']}", of_both(row, "seconds", ".3f"), median_ratio([row["time_ratio"]], ".2f"))
     begin_table("over all remeshings", "alone, median", "guarded, median", "guarded less alone, median",
                 "guarded no worse in")
 
@@ -97,9 +103,9 @@ def tell_remeshing(remeshed):
         tell_medians(field, *([row[way][field] for row in remeshed] for way in ("plain", "guarded")), worse)
     off = ([abs(row[way]["length"] - 1) for row in remeshed] for way in ("plain", "guarded"))
     tell_medians("edge/L, distance from 1", *off, 1)
-    ratios = [row["time_ratio"] for row in remeshed]
+    ratios = [row["time_ratio"] for row in remeshed if row["time_ratio"] is not None]
     print_row("seconds", *(f"{median(row[way]['seconds'] for row in remeshed):.3g}" for way in ("plain", "guarded")),
-              f"ratio {median(ratios):.2f}", f"at most 2 times in {sum(ratio <= 2 for ratio in ratios)}")
+              f"ratio {median_ratio(ratios, '.2f')}", f"at most 2 times in {sum(ratio <= 2 for ratio in ratios)}")
 
 
 def tell(rows):

@@ -34,7 +34,7 @@ def drags_and_edits(report):
     said = "no promise broke" if not broken else "broken: " + "; ".join(p["promise"] for p in broken)
     name = "broad_phases" if phases > 1 else "drags" + ("_of_a_hand" if report["motion"] == "hand" else "") + ("" if report["response"] == "slide" else f"_{report['response']}")
     return [of_promises(name, report, f"In {drags:,} drags and {edits:,} mixed edits of {meshes} hard meshes{how} {said}.", str(len(broken)),
-                        f"broken promises of {len(report['promises'])}", tables)]
+                        f"broken promises of {sum(p['asked'] > 0 for p in report['promises'])}", tables)]
 
 
 def ends(report):
@@ -65,8 +65,8 @@ def drags_by_oracle(report):
 
 def axis_moves_by_oracle(report):
     p = report["promises"][0]
-    return [of_promises("axis_moves_by_oracle", report, f"{p['asked']:,} axis moves were looked at on the way, exactly; {'all free ones are embedded' if p['broken'] == 0 else 'some are not'}.",
-                        f"{p['asked']:,}", "axis moves looked at", [])]
+    return [of_promises("axis_moves_by_oracle", report, f"Of {p['asked']:,} axis moves the free ones were looked at on the way, exactly; {'all are embedded' if p['broken'] == 0 else 'some are not'}.",
+                        f"{p['asked']:,}", "axis moves tried", [])]
 
 
 CHARTS = {"drags_and_edits": drags_and_edits, "broad_phases": drags_and_edits, "drags_with_stop": drags_and_edits, "drags_with_paper": drags_and_edits, "drags_of_a_hand": drags_and_edits, "drags_of_a_hand_with_stop": drags_and_edits,

@@ -302,7 +302,7 @@ TELLING = """#!/usr/bin/python3
 import json, os, pathlib, sys
 given = dict(zip(sys.argv[1:], sys.argv[2:]))
 names = sorted(path.name for path in pathlib.Path(given["--meshes"]).iterdir())
-row = {"unit": 0, "scene": "none", "drags": 1, "mean_distance_left": 1, "share_at_minimum": 1, "mean_legs": 1, "mean_ns": 1, "median_ns": 1}
+row = {"unit": 0, "scene": "none", "drags": 1, "mean_distance_left": 1, "judged": 1, "at_minimum": 1, "mean_legs": 1, "mean_ns": 1, "median_ns": 1}
 chart = [{**row, "response": name} for name in ("slide", "stop", "paper")]
 json.dump({"shard": given["--shard"], "names": names, "chart": chart}, open(given["--json"], "w"))
 if "c.off" in names:

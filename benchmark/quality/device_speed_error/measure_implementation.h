@@ -103,21 +103,30 @@ void measure(const char* name, const Population& p, int checked, int repetitions
                     error["max"].get<double>());
       rows.push_back(entry);
     };
-    Errors forward, inverse, dynamics_errors;
+    Errors forward, warm, inverse, all_inverses, dynamics_errors;
     const Reference reference(exact(parameters.description()), description_as<Exact>(design));
     for (int k = 0; k < std::min(checked, count); ++k) {
       const auto truth = reference.state(exact(theta[k]), exact(rate[k]), exact(acceleration[k]));
       const double condition = static_cast<double>(conditioning(parameters, poses[k])->constraint_condition);
       forward.values.push_back(relative_error(poses[k].position, truth.position, reference.secondary_length()) /
                                condition);
+      if (general)
+        warm.values.push_back(relative_error(general_forward(parameters, theta[k], near[k])->position, truth.position,
+                                             reference.secondary_length()) /
+                              condition);
       const auto got = spatial_inverse_dynamics(parameters, poses[k], rate[k], acceleration[k]);
       dynamics_errors.values.push_back(relative_error(got->torque, truth.torque, Exact(truth.torque.norm())) /
                                        condition);
       if (!general) {
         const Eigen::Vector3i knees = working_mode(parameters, poses[k]);
         const auto back = ditetrahedral_inverse(parameters, poses[k].position, knees);
-        inverse.values.push_back(
-            relative_error(back->theta, reference.inverse(exact(poses[k].position), knees), Exact(1)));
+        const auto truth_of_it = reference.inverse(exact(poses[k].position), knees);
+        inverse.values.push_back(relative_error(back->theta, truth_of_it, Exact(1)));
+        const auto all = ditetrahedral_inverse(parameters, poses[k].position);
+        Device_vector<S> of_knees;
+        for (int i = 0; i < 3; ++i)
+          of_knees[i] = (knees[i] == 0 ? all->plus : all->minus)[i];
+        all_inverses.values.push_back(relative_error(of_knees, truth_of_it, Exact(1)));
       }
     }
     Eigen::Vector3i knees(0, 0, 0);
@@ -140,13 +149,13 @@ void measure(const char* name, const Population& p, int checked, int repetitions
                                  sink =
                                      static_cast<double>(ditetrahedral_inverse(parameters, poses[k].position)->plus[2]);
                                }),
-          inverse);
+          all_inverses);
     } else {
       row("forward, warm",
           nanoseconds_per_call(
               count, repetitions,
               [&](int k) { sink = static_cast<double>(general_forward(parameters, theta[k], near[k])->position[2]); }),
-          forward);
+          warm);
       row("forward, cold",
           nanoseconds_per_call(
               count, repetitions,
