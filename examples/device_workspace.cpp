@@ -100,7 +100,7 @@ void figures(Device_description<double> description, const char* name, int per_j
   heavy.print("the same with geared motors (630 g cm^2 a joint)", "");
   model_difference.print("planar model's mass matrix off by", "of its norm");
   if (left_out != 0)
-    std::printf("  %-44s %d near a singular pose, as all samples of it\n", "left out of the last three", left_out);
+    std::printf("  %-44s %d\n", "poses near singular ones, not in the last three", left_out);
 }
 
 /// \throw Write_error where that is known before the work

@@ -89,8 +89,10 @@ def whole_drags(report):
 
 def responses(report):
     of = {r: [row for row in report["chart"] if row["response"] == r] for r in ("slide", "stop", "paper")}
-    mean = {r: (sum(x["median_ns"] for x in rows) / len(rows) * 1e-9, 1 - sum(x["at_minimum"] for x in rows) / max(1, sum(x["judged"] for x in rows)),
-                sum(x["mean_distance_left"] for x in rows) / len(rows)) for r, rows in of.items() if rows}
+    mean = {r: (sum(x["median_ns"] for x in rows) / len(rows) * 1e-9, 1 - sum(x["at_minimum"] for x in rows) / sum(x["judged"] for x in rows),
+                sum(x["mean_distance_left"] for x in rows) / len(rows)) for r, rows in of.items() if any(x["judged"] for x in rows)}
+    if len(mean) < 3:  # every drag arrives, or no response was asked for
+        return []
     names = {"slide": "slide", "stop": "stop", "paper": "the paper's walk"}
     rows = [[x["scene"], x["response"], x["drags"], f"{x['mean_distance_left']:.3g}", f"{x['at_minimum']} of {x['judged']}", f"{x['mean_legs']:.2g}",
              seconds_text(x["mean_ns"] * 1e-9)] for x in report["chart"]]

@@ -22,13 +22,13 @@
 ///   replaced has died, and a new one may have its descriptor. Forget what died before you note what is new.
 /// - *Nothing is said* of what was refused or lacked memory, of a drag that did not move, of
 /// haptic_sculpt::Sculptor::probe(), of
-///   settings, and of an undo of several changes that ended halfway: there what was taken back has been made again.
+///   and of settings.
 /// - *An exception* goes on to the caller of the edit, and the Sculptor works as before. Thrown in one of the `*_dies`,
 /// the change is
 ///   not made, though some of what it would have killed has been named. Thrown in another function, the change stands,
-///   and the rest of it is not told. An undo or redo of several changes is made whole or not at all. What was done of it
-///   is taken back. The functions above hear of that until one throws again; `face_replaces` and `edge_replaces` hear
-///   of all of it.
+///   and the rest of it is not told, but where `face_replaces` or `edge_replaces` threw. An undo or redo of several
+///   changes is made whole or not at all. What was done of it is taken back. The functions above hear of that until one
+///   throws again; `face_replaces` and `edge_replaces` hear of all of it.
 class EditVisitor : public haptic_sculpt::Default_edit_visitor {
 public:
   /// v is at its new place.

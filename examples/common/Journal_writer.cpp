@@ -12,6 +12,8 @@ void Journal_writer::finish() {
   is_ending_ = true;
   if (thread_.joinable())
     thread_.join();
+  unwritten_ += commands_.size(); // of a tick whose end found no room
+  commands_.clear();
 }
 
 void Journal_writer::run() {

@@ -37,8 +37,7 @@ private:
       begun_ += static_cast<char>(byte);
       if (--missing_ > 0)
         return c;
-      const bool is_control = static_cast<unsigned char>(begun_[0]) == 0xc2 && byte < 0xa0;
-      const bool is_good = is_control ? escape_begun() : put(begun_);
+      const bool is_good = is_no_character() ? escape_begun() : put(begun_);
       begun_.clear();
       return is_good ? c : traits_type::eof();
     }
@@ -51,6 +50,13 @@ private:
     else
       is_good = is_good && escape(byte);
     return is_good ? c : traits_type::eof();
+  }
+
+  /// Of a whole sequence: a control character U+0080 to U+009F, an overlong form, a surrogate, beyond U+10FFFF.
+  bool is_no_character() const {
+    const auto lead = static_cast<unsigned char>(begun_[0]), next = static_cast<unsigned char>(begun_[1]);
+    return (lead == 0xc2 && next < 0xa0) || (lead == 0xe0 && next < 0xa0) || (lead == 0xed && next >= 0xa0) ||
+           (lead == 0xf0 && next < 0x90) || (lead == 0xf4 && next >= 0x90);
   }
 
   int sync() override {

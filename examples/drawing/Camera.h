@@ -37,7 +37,7 @@ public:
       throw Picture_error("A picture of " + std::to_string(width_) + " x " + std::to_string(height_) +
                           " pixels cannot be drawn. Give a positive width and height.");
     frame_box(scene);
-    look_along(view.direction.stableNormalized(), view.up.stableNormalized());
+    look_along(unit(view.direction), unit(view.up));
     fit(scene);
     if (view.focus)
       aim_at(scaled(*view.focus));
@@ -101,7 +101,7 @@ public:
   }
   /// Looks along a direction, as View says, at the same zoom.
   void look(const Eigen::Vector3d& direction, const Eigen::Vector3d& up) {
-    look_along(direction.stableNormalized(), up.stableNormalized());
+    look_along(unit(direction), unit(up));
   }
   /// Magnifies by a factor; what is seen at `pixel` stays there.
   void magnify(double factor, const Eigen::Vector2d& pixel) {
@@ -110,9 +110,7 @@ public:
     aim_ += before - in_plane(pixel);
   }
   /// Shifts the picture by pixels, downwards positive.
-  void shift(const Eigen::Vector2d& pixels) {
-    aim_ -= pixel_width() * Eigen::Vector2d(pixels.x(), -pixels.y());
-  }
+  void shift(const Eigen::Vector2d& pixels) { aim_ -= pixel_width() * Eigen::Vector2d(pixels.x(), -pixels.y()); }
   /// Puts a scaled point into the middle of the picture.
   void aim_at(const Eigen::Vector3d& q) { aim_ = (rotation_ * q).head<2>(); }
   void resize(int width, int height) { width_ = std::max(1, width), height_ = std::max(1, height); }
@@ -175,6 +173,12 @@ private:
     center_ = box.center();
     const double longest = box.sizes().maxCoeff();
     half_edge_ = longest > 0 ? longest / 2 : 1;
+  }
+
+  /// Of the largest and the smallest numbers, too; zero stays.
+  static Eigen::Vector3d unit(const Eigen::Vector3d& direction) {
+    const double largest = direction.lpNorm<Eigen::Infinity>();
+    return largest > 0 ? Eigen::Vector3d((direction / largest).normalized()) : direction;
   }
 
   void look_along(const Eigen::Vector3d& direction, Eigen::Vector3d up) {

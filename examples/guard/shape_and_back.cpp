@@ -32,6 +32,10 @@ void go(haptic_sculpt::Sculptor<Mesh>& sculptor, const Mesh& to, const char* nam
 } // namespace
 
 int main(int argc, char** argv) try {
+  if (argc != 1 && argc != 3) {
+    std::cerr << "usage: shape_and_back [FROM TO]\n";
+    return 2;
+  }
   const Mesh from = argc > 2 ? haptic_sculpt::read_surface<Mesh>(argv[1]) : torus(64, 12, 0.2);
   const Mesh to = argc > 2 ? haptic_sculpt::read_surface<Mesh>(argv[2]) : turned(from);
   if (from.num_vertices() != to.num_vertices()) {

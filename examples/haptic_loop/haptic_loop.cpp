@@ -78,7 +78,7 @@ int loop(const Arguments& arguments) {
     const double seconds = arguments.seconds.value_or(plan.path->end());
     const double tick = 1 / settings.rate;
     double ticks = std::ceil(seconds * settings.rate); // at most one more than there are, by rounding
-    while (ticks > 1 && (ticks - 1) * tick >= seconds)
+    if (ticks > 1 && (ticks - 1) * tick >= seconds)
       --ticks;
     const double last_tick = (ticks - 1) * tick;
     if (plan.fault && plan.fault->time > last_tick)

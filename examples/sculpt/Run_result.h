@@ -65,7 +65,11 @@ struct Run_result {
   std::vector<double> nanoseconds;         ///< of each edit that was carried out
   Filter_counters filter;
   std::exception_ptr failure; ///< of a line that could not be carried out and ended the script, which was `failed`
-  Command failed;
+  struct Failed_line {
+    const char* name = "";
+    std::size_t line = 0;
+    bool is_logged = false; ///< it is one of the log
+  } failed;
   /// That line: what it had done by then could not be taken back, and log or report may not have it.
   bool may_be_in_part = false;
 

@@ -28,6 +28,7 @@ public:
 
   Run_result run(const std::vector<Command>& script, const After_command& after) {
     Progress progress("the script", script.size());
+    make_room();
     for (std::size_t i = 0; i < script.size() && !result_.failure; ++i) {
       try {
         std::optional<Command> found;
@@ -40,14 +41,14 @@ public:
         }
       } catch (const std::exception&) { // told with what was done so far, which is not lost
         result_.failure = std::current_exception();
-        result_.failed = script[i];
+        result_.failed = {name_of(script[i]), script[i].line, script[i].is_logged};
       }
       progress.step(i + 1);
     }
     for (const std::size_t name : moved_)
       if (sculptor_.vertex(name).is_valid())
         result_.moved_vertices.push_back(sculptor_.vertex(name));
-    result_.numbers = numbers();
+    add_numbers(result_.numbers);
     for (const std::size_t name : result_.numbers)
       result_.vertex_order.emplace_back(static_cast<Mesh::size_type>(sculptor_.vertex(name)));
     result_.filter = sculptor_.filter_counters();
@@ -64,22 +65,32 @@ private:
   Run_result result_;
   std::set<std::size_t> moved_;
 
+  /// For what is said of all vertices after a line that lacked memory; a line fails for want of it here, undone.
+  void make_room() {
+    const std::size_t n = sculptor_.number_of_ids();
+    if (n <= result_.numbers.capacity())
+      return;
+    result_.moved_vertices.reserve(n + n / 2);
+    result_.vertex_order.reserve(n + n / 2);
+    result_.numbers.reserve(n + n / 2);
+  }
+
   /// Of the vertices that are there.
-  std::vector<std::size_t> numbers() const {
-    std::vector<std::size_t> all;
+  void add_numbers(std::vector<std::size_t>& all) const {
     for (std::size_t name = 0; name < sculptor_.number_of_ids(); ++name)
       if (sculptor_.vertex(name).is_valid())
         all.push_back(name);
-    return all;
   }
 
   /// The line as it is logged: with vertices by number.
   Command with_vertices_found(Command command) const {
+    std::vector<std::size_t> all;
+    add_numbers(all);
     for (const Command::Place& place : command.places) {
       const auto point_of = [this](std::size_t name) { return mesh_.point(sculptor_.vertex(name)); };
       const bool is_shift = command.kind == Kind::edit && command.edit.kind == Edit_kind::shift;
       std::size_t& vertex = is_shift ? command.edit.ways[place.which].first : command.edit.vertices[place.which];
-      vertex = nearest_vertices(numbers(), point_of, point(place.point), 1).at(0);
+      vertex = nearest_vertices(all, point_of, point(place.point), 1).at(0);
     }
     command.places.clear();
     return command;
@@ -129,6 +140,7 @@ private:
                       within_clearance = result_.within_clearance;
     try {
       carry_out(command);
+      make_room();
     } catch (...) {
       result_.edits.resize(edits);
       result_.nanoseconds.resize(times);

@@ -116,7 +116,7 @@ std::string told(const char* how, std::size_t pairs) {
 
 } // namespace
 
-Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script) {
+Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script, const std::string& name) {
   const std::vector<bool> inside_out = inside_out_vertices(mesh);
   for (const Command& command : script)
     switch (command.kind) {
@@ -130,9 +130,9 @@ Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script) {
         break;
       [[fallthrough]];
     case Kind::remesh:
-      throw Script_error(
-          "line " + std::to_string(command.line) + " ('" + name_of(command) +
-          "') does more than to move vertices: --compare takes scripts of drags, moves and brushes only");
+      throw Script_error(name, command.line, 1,
+                         std::string("'") + name_of(command) + "' does more than to move vertices: --compare takes "
+                         "scripts of drags, moves and brushes only");
     default: break;
     }
   return mesh;

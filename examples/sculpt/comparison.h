@@ -9,8 +9,8 @@
 namespace haptic_sculpt::sculpt_program {
 
 /// What a script makes of a mesh when every vertex goes where it is sent: without the guard.
-/// \throw Script_error for a line that does more than to move vertices
-Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script);
+/// \param name how messages call the script \throw Script_error for a line that does more than to move vertices
+Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script, const std::string& name);
 
 /// A picture of two meshes side by side, with the faces of self-intersecting pairs in red and their number below.
 /// \param direction in which one looks; empty: the usual one

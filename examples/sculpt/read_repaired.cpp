@@ -32,6 +32,7 @@ std::string json_of(const Repair_report& report) {
   Json faults = Json::object();
   for_each_kind_of_fault(left, [&](const char* key, const auto& list) { faults[key] = list.size(); });
   const Json all = {{"repaired", report.is_repaired()},
+                    {"has_vanished", report.has_vanished},
                     {"steps", std::move(steps)},
                     {"moved", report.moved},
                     {"points_before", report.points_before},

@@ -277,7 +277,7 @@ int sculpt(const Arguments& arguments) {
   };
   std::optional<Mesh> without_guard;
   if (!arguments.comparison.empty())
-    without_guard = sculpted_without_guard(mesh, script.commands);
+    without_guard = sculpted_without_guard(mesh, script.commands, arguments.script);
   const auto append_to_log = [&](const Command& command) {
     if (log && !command.is_logged) {
       log->append(command);
@@ -287,7 +287,7 @@ int sculpt(const Arguments& arguments) {
   const Run_result result = run(mesh, plan.commands, arguments, {begin, append_to_log});
   if (result.failure)
     writer.note((result.failed.is_logged ? arguments.log : arguments.script) + ": line " +
-                std::to_string(result.failed.line) + ": `" + name_of(result.failed) + "` has ended the script: " +
+                std::to_string(result.failed.line) + ": `" + result.failed.name + "` has ended the script: " +
                 examples::message_of(result.failure) + ". What was done until then is written" +
                 (result.may_be_in_part ? ", with what this line may have done, which log and report may lack" : ""));
   const std::vector<Near_vertex> nearest = nearest_to(arguments, mesh, result);

@@ -94,7 +94,9 @@ void Application::point() {
 void Application::on_move(double x, double y) {
   const Eigen::Vector2d before = mouse_;
   mouse_ = {x, y};
-  note("move %.17g %.17g", x, y);
+  has_moved_ = true;
+  if (button_ > 0 || turns_ || is_playing()) // else one a frame: a mouse may tell a thousand a second
+    note_move();
   if (!view_.has_mesh())
     return;
   const Eigen::Vector2d way = mouse_ - before;
@@ -177,6 +179,7 @@ void Application::on_drop(const std::vector<std::string>& paths) {
 }
 
 void Application::on_close() {
+  note("close");
   quit();
 }
 
@@ -254,10 +257,21 @@ void Application::take_reports() {
                  opens_for_script_);
   };
   try {
-    if (auto opened = background_.take_opened()) {
+    const bool is_at_work = button_ == 0 || status_.hold != Hold::nothing || !thread_.has_done_all();
+    if (auto opened = is_at_work ? std::nullopt : background_.take_opened()) { // else edits are yet to be counted
       const std::string path = opened->path;
-      enter(std::move(*opened));
-      note_file("open", path); // here: what the hand did meanwhile was done to the mesh before
+      if (is_unsaved() && edits() != edits_when_opening_) {
+        destroy_unseen(*opened);
+        next_open_ = {path, edits()};
+        note_file("open", path);
+        fail_to_open("'" + path +
+                         "' is not opened, for there is work since that was asked for: save it, or drop the file "
+                         "once more to leave it",
+                     opens_for_script_);
+      } else {
+        enter(std::move(*opened));
+        note_file("open", path); // here: what the hand did meanwhile was done to the mesh before
+      }
     }
   } catch (const drawing::Picture_error&) {
     keep_what_is_shown();
@@ -280,7 +294,8 @@ void Application::take_saved() {
       if (saved->scene != scene_)
         continue; // another was opened meanwhile
       kept_.back().is_saved = true, kept_.back().saved_edits = saved->edits;
-      is_done_ = is_done_ || saved->quits;
+      if (saved->quits) // where there is work since, it is asked once more
+        note("close"), is_leaving_ = true;
     } catch (const Error& error) {
       fail_to_write(examples::message_of(error));
     } catch (const std::exception&) {
@@ -290,6 +305,8 @@ void Application::take_saved() {
 }
 
 void Application::step() {
+  if (record_ != nullptr)
+    note_move();
   const Status before = status_;
   status_ = thread_.status();
   if (status_.hold != Hold::nothing || before.hold != Hold::nothing)
@@ -306,11 +323,12 @@ void Application::step() {
     if (is_unsaved())
       choices_.question = Choices::Question::leave_unsaved;
     else
-      is_done_ = true;
+      leave_window();
     frames_due_ = 3;
   }
-  // What is held still goes on, a frame a dab; in a script only while that waits, so that it does the same each time.
-  const bool is_live = !is_playing() || script_[next_action_].kind == Action::Kind::wait;
+  // What is held still goes on, a frame a dab; in a script only while that waits, so that it does the same each time,
+  // and not behind it, where a picture waits for the end.
+  const bool is_live = is_playing() ? script_[next_action_].kind == Action::Kind::wait : options_.screenshot.empty();
   if (is_live && thread_.has_stroke() && !thread_.is_stroke_waiting())
     thread_.go_on(pointer_here());
   play();

@@ -15,7 +15,6 @@
 #include <cstdio>
 #include <deque>
 #include <memory>
-#include <set>
 
 namespace haptic_sculpt::window_program {
 
@@ -120,8 +119,9 @@ private:
   std::string to_open_;   ///< as soon as nothing is under way
   std::vector<examples::Named_file> opening_; ///< what is being opened, or is to be, and its log
   std::pair<std::string, std::uint64_t> next_open_; ///< asked for once while there was unsaved work: of how many edits
-  std::set<std::string> unopened_;                  ///< by a script, what was refused for that, and not opened since
+  std::vector<examples::Named_file> unopened_; ///< by a script, what was refused for that, and not opened since
   bool opens_for_script_ = false;                   ///< what is being opened
+  std::uint64_t edits_when_opening_ = 0;            ///< of the mesh that is shown till then
   bool has_failed_to_open_ = false;
 
   Eigen::Vector2d mouse_ = Eigen::Vector2d::Zero();
@@ -148,6 +148,7 @@ private:
   std::FILE* record_ = nullptr;
   std::string recorded_to_;
   Clock::time_point last_recorded_{};
+  bool has_moved_ = false; ///< since the last frame, which is yet to be noted
 
   /// Whether status_ is of the mesh that is shown; else the loop has yet to enter it, and nothing was done to it.
   bool has_status() const { return status_.scene == scene_; }
@@ -173,6 +174,7 @@ private:
   void open(const std::string& path, bool for_script = false);
   void fail_to_open(const std::string& why, bool for_script);
   void quit();
+  void leave_window();
   void obey(Order order);
   void choose(Tool tool);
   void choose(Brush_use use);
@@ -190,6 +192,7 @@ private:
   void print_status() const;
   void record(const std::string& path);
   void note(const char* format, ...);
+  void note_move();
   void note_file(const char* what, const std::string& path); ///< as a comment where no script can name it
   void flush_record();
   void draw_state();

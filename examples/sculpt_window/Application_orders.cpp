@@ -7,6 +7,7 @@
 
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <system_error>
@@ -231,8 +232,10 @@ bool Application::may_write(const std::string& path, Written what) {
   if (!why.empty())
     is_playing() ? fail_to_write(why) : say(why);
   else
-    written_[static_cast<std::size_t>(what)].push_back(
-        {is_mesh ? "a mesh that was saved" : what == Written::picture ? "a screenshot" : "a recording", path});
+    written_[static_cast<std::size_t>(what)].push_back({is_mesh                    ? "a mesh that was saved"
+                                                        : what == Written::picture ? "a screenshot"
+                                                                                   : "a recording",
+                                                        path});
   return why.empty();
 }
 
@@ -281,20 +284,22 @@ void Application::open(const std::string& path, bool for_script) {
       return fail_to_open("'" + path + "' is not opened: " + (name == log ? "its log '" + log + "' is " : "it is ") +
                               other->role,
                           for_script);
-  const std::pair<std::string, std::uint64_t> wanted(path, edits()); // what was done since is not to be left by it
-  if (is_unsaved() && next_open_ != wanted) {
-    next_open_ = wanted;
+  // What was done since is not to be left by it.
+  const bool is_wanted = next_open_.second == edits() && examples::same_file(path, {{"", next_open_.first}}) != nullptr;
+  if (is_unsaved() && !is_wanted) {
+    next_open_ = {path, edits()};
     if (for_script)
-      unopened_.insert(path);
+      unopened_.push_back({"", path});
     note_file("open", path); // twice leaves it
     return say(std::string("there is unsaved work: save it, or drop the file once more to leave it") +
                (log_.empty() ? "" : " (the log has it)"));
   }
   next_open_ = {};
-  unopened_.erase(path);
+  while (const auto* const before = examples::same_file(path, unopened_))
+    unopened_.erase(unopened_.begin() + (before - unopened_.data()));
   say("opening " + path);
   opening_ = names;
-  opens_for_script_ = for_script;
+  opens_for_script_ = for_script, edits_when_opening_ = edits();
   background_.open(path, log);
 }
 
@@ -304,9 +309,16 @@ void Application::fail_to_open(const std::string& why, bool for_script) {
   has_failed_to_open_ = has_failed_to_open_ || for_script; // a slip of the hand is no failure of the run
 }
 
+/// After the picture at the end, if one was asked for; what is left of a script is left out.
+void Application::leave_window() {
+  choices_.question = Choices::Question::none;
+  is_done_ = options_.screenshot.empty();
+  script_.resize(std::min(next_action_, script_.size()));
+}
+
 void Application::quit() {
   if (choices_.question == Choices::Question::leave_unsaved)
-    is_done_ = true;
+    leave_window();
   else
     is_leaving_ = true, to_open_.clear();
   frames_due_ = 3;

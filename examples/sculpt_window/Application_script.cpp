@@ -55,11 +55,8 @@ void Application::play() {
     return;
   frames_due_ = 3;
   if (next_action_ < script_.size()) {
-    if (act(script_[next_action_]) && ++next_action_ == script_.size() && !unopened_.empty())
-      fail_to_open(
-          "'" + *unopened_.begin() +
-              "' was not opened, for there was unsaved work: save that before, or give `open` twice to leave it",
-          true);
+    if (act(script_[next_action_]))
+      ++next_action_;
     return;
   }
   if (options_.screenshot.empty() || !is_settled())
@@ -244,13 +241,22 @@ void Application::record(const std::string& path) {
   std::fprintf(record_, "# sculpt_window of haptic_sculpt %s, a window of %d x %d\n", HAPTIC_SCULPT_VERSION,
                view_size_[0], view_size_[1]);
   last_recorded_ = Clock::now();
-  recorded_to_ = path;
+  recorded_to_ = path, has_moved_ = false;
   say("recording to " + path);
   flush_record();
 }
 
+/// Where the mouse has come to.
+void Application::note_move() {
+  if (std::exchange(has_moved_, false))
+    note("move %.17g %.17g", mouse_.x(), mouse_.y());
+}
+
 void Application::note(const char* format, ...) {
   if (record_ == nullptr)
+    return;
+  note_move();            // before it
+  if (record_ == nullptr) // that could not be written
     return;
   const auto now = Clock::now();
   const double seconds = std::chrono::duration<double>(now - std::exchange(last_recorded_, now)).count();
@@ -281,9 +287,14 @@ void Application::flush_record() {
 }
 
 int Application::finish() {
-  while (!to_save_.empty() || background_.is_saving() || background_.is_opening()) {
+  if (!unopened_.empty())
+    fail_to_open(
+        "'" + unopened_.front().path +
+            "' was not opened, for there was unsaved work: save that before, or give `open` twice to leave it",
+        true);
+  while (!to_save_.empty() || background_.is_saving()) {
     status_ = thread_.status(); // how large the mesh is by now: for what is copied again
-    take_answers(), take_saved(), leave_unseen();
+    take_answers(), take_saved();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   for (Model* const model : thread_.end())
@@ -322,7 +333,13 @@ int Application::finish() {
       fail_to_write(error.what());
     }
   }
-  return has_failed_to_open_ ? 3 : has_failed_to_write_ ? 5 : 0;
+  const int code = has_failed_to_open_ ? 3 : has_failed_to_write_ ? 5 : 0;
+  leave_unseen();
+  if (background_.is_opening()) { // reading may take minutes, and has written at most the head of a log
+    const bool is_said = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    std::_Exit(code == 0 && !is_said ? 5 : code);
+  }
+  return code;
 }
 
 } // namespace haptic_sculpt::window_program

@@ -294,10 +294,15 @@ bool Sculpting_thread::take(Report& report) {
   return true;
 }
 
-bool Sculpting_thread::is_idle() const {
+bool Sculpting_thread::has_done_all() const {
   const Parts& p = *parts_;
   return p.loop && p.waiting.empty() && !is_stroke_waiting() && p.loop->queue.waiting() == (p.stroke != nullptr) &&
-         !(p.is_pick_due && p.may_pick()) && p.status.mouse == p.mouse.number() && p.status.made > p.answered;
+         p.status.made > p.answered;
+}
+
+bool Sculpting_thread::is_idle() const {
+  const Parts& p = *parts_;
+  return has_done_all() && !(p.is_pick_due && p.may_pick()) && p.status.mouse == p.mouse.number();
 }
 
 std::vector<Model*> Sculpting_thread::end() {

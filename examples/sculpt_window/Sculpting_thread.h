@@ -66,6 +66,8 @@ public:
   bool take(Seen_face& change);
   bool take(Report& report);
   /// Whether all that was asked for is done and in status(); a stroke is done when it waits for nothing.
+  bool has_done_all() const;
+  /// The same, and the mouse is where status() has it.
   bool is_idle() const;
   /// Ends the loop: status() is of its last tick from here on. \return all models that have not come back, the one that
   /// was asked for last at the end

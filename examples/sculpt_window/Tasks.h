@@ -5,8 +5,11 @@
 
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_session.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 /// \file
 /// What the window has the loop's thread do between two ticks.
@@ -36,9 +39,30 @@ protected:
 
   static Kernel::Point_3 point(const Place& p) { return {p[0], p[1], p[2]}; }
   static Hit hit_of(Scene& scene, const Pointer& pointer) {
-    if (pointer.from == pointer.to)
-      return std::nullopt;
-    return scene.sculptor.first_hit(point(pointer.from), point(pointer.to));
+    const auto within = within_range(pointer);
+    return within ? scene.sculptor.first_hit(point(within->first), point(within->second)) : std::nullopt;
+  }
+  /// The part of a pointer's line where there may be a mesh, and which a Sculptor takes; none where it has no length.
+  static std::optional<std::pair<Place, Place>> within_range(const Pointer& pointer) {
+    double begin = 0, end = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double from = pointer.from[k], way = pointer.to[k] - from;
+      if (way == 0 && std::fabs(from) > largest_coordinate)
+        return std::nullopt;
+      if (way == 0)
+        continue;
+      const auto [first, last] = std::minmax({(-largest_coordinate - from) / way, (largest_coordinate - from) / way});
+      begin = std::fmax(begin, first), end = std::fmin(end, last);
+    }
+    const auto at = [&](double share) {
+      Place p;
+      for (std::size_t k = 0; k < 3; ++k)
+        p[k] = std::clamp(pointer.from[k] + share * (pointer.to[k] - pointer.from[k]), -largest_coordinate,
+                          largest_coordinate);
+      return p;
+    };
+    const Place from = begin > 0 ? at(begin) : pointer.from, to = end < 1 ? at(end) : pointer.to;
+    return begin < end && from != to ? std::optional(std::pair(from, to)) : std::nullopt;
   }
   /// Of the face, of any length.
   static Place normal_at(const Scene& scene, const Surface_hit<Mesh>& hit) {

@@ -80,6 +80,12 @@ std::optional<Key> key_pressed(int code, bool ctrl, bool shift) {
   return std::nullopt;
 }
 
+bool goes_on(Order order) {
+  const bool is_of_size = order >= Order::larger && order <= Order::weaker,
+             is_of_view = order >= Order::turn_left && order <= Order::zoom_out;
+  return is_of_size || is_of_view || order == Order::undo || order == Order::redo;
+}
+
 const std::vector<Mouse_use>& mouse_uses() {
   static const std::vector<Mouse_use> all = {{"left", "the tool; beside the mesh: turn"},
                                              {"shift + left", "a brush smooths; a vertex goes along its normal"},

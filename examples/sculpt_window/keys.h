@@ -76,6 +76,9 @@ std::optional<Key> key_named(const std::string& name);
 /// \param code GLFW's
 std::optional<Key> key_pressed(int code, bool ctrl, bool shift);
 
+/// Whether a key that is held does it again and again: what makes something more, and switches nothing.
+bool goes_on(Order order);
+
 /// What the mouse does, line by line: buttons, then what they do.
 struct Mouse_use {
   const char* how;

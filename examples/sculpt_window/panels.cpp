@@ -219,14 +219,15 @@ void Application::draw_question() {
     ImGui::Text("There is work that is not saved.");
     if (ImGui::Button("Save and quit")) {
       choices_.question = Question::none;
+      note("key escape"), note_file("save", options_.out);
       save(options_.out, true);
     }
     ImGui::SameLine();
     if (ImGui::Button("Quit without saving"))
-      discards_ = is_done_ = true;
+      note("close"), discards_ = true, leave_window();
     ImGui::SameLine();
     if (ImGui::Button("Go on"))
-      choices_.question = Question::none;
+      note("key escape"), choices_.question = Question::none;
     ImGui::Text("It would be saved to %s", options_.out.c_str());
   } else {
     const bool saves = choices_.question == Question::name_to_save;

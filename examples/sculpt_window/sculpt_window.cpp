@@ -147,6 +147,8 @@ private:
         application_of(w).on_move(x * scale(w), y * scale(w));
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
+      if (application_of(w).is_playing())
+        return;
       if (action == GLFW_RELEASE)
         application_of(w).on_release(button);
       else if (!ImGui::GetIO().WantCaptureMouse && button <= GLFW_MOUSE_BUTTON_MIDDLE)
@@ -154,6 +156,8 @@ private:
                                    (mods & GLFW_MOD_ALT) != 0);
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double notches) {
+      if (application_of(w).is_playing())
+        return;
       const auto is_down = [w](int left, int right) {
         return glfwGetKey(w, left) == GLFW_PRESS || glfwGetKey(w, right) == GLFW_PRESS;
       };
@@ -164,7 +168,8 @@ private:
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int code, int, int action, int mods) {
       if (action == GLFW_RELEASE || (ImGui::GetIO().WantTextInput && code != GLFW_KEY_ESCAPE))
         return;
-      if (const auto key = key_pressed(code, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0))
+      const auto key = key_pressed(code, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0);
+      if (key && (action == GLFW_PRESS || goes_on(key->order)))
         application_of(w).on_key(*key);
     });
     glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
@@ -239,7 +244,7 @@ int run(const Options& options) {
 }
 
 int exit_code_of(const std::exception& error) {
-  if (examples::is_a<No_window>(error))
+  if (examples::is_a<No_window>(error) || examples::is_a<drawing::Picture_error>(error)) // of the first mesh
     return no_window;
   if (examples::is_a<Action_error>(error))
     return examples::script_error;

@@ -256,6 +256,15 @@ check(report["missed_by_wakeup"] >= 100 and report["wakeup_ns"]["max"] >= 1e9,
 done = program_runs.run(MESH, "--log", at("pause.log"), "-o", at("again.off"))
 check(done.returncode == 0, f"the log of a run with a pause: {done.stderr}")
 check(points(at("again.off")) == points(at("pause.off")) != points(MESH), "the log of a run with a pause has all edits")
+endless = subprocess.Popen([LOOP, MESH, "--seconds", "1e24", "--log", at("endless.log"), "-o", at("endless.off")],
+                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+for _ in range(10 * program_runs.PATIENCE):
+    if os.path.exists(at("endless.log")) or endless.poll() is not None:
+        break
+    time.sleep(0.1)
+endless.send_signal(signal.SIGINT)
+words = endless.communicate(timeout=program_runs.PATIENCE)[1]
+check(endless.returncode == 0 and os.path.exists(at("endless.off")), f"10^24 s: exit {endless.returncode}: {words}")
 done = run(MESH, "--real-time", "--seconds", 0.3)
 check("haptic_loop: " in done.stderr or os.geteuid() == 0, f"real time, or why not: {done.stderr}")
 run(MESH, "--real-time", "--no-wait", code=2)

@@ -276,6 +276,9 @@ def memory_that_runs_out(folder, mesh):
             what = f"{run_within.__name__} {memory} bytes"
             is_in_order = done.returncode in (0, 1, 5) or "GNU MP" in done.stderr  # which ends the process itself
             check(is_in_order, f"{what}: exit {done.returncode}: {done.stderr}")
+            has_begun = run_within is sculpt_within and os.path.exists(log) and " # line " in open(log).read()
+            check(not has_begun or "GNU MP" in done.stderr or os.path.exists(out) or f"cannot write '{out}'" in done.stderr,
+                  f"{what}: what was done is lost: {done.stderr}")
             if not os.path.exists(out):
                 continue
             written += 1
@@ -284,6 +287,7 @@ def memory_that_runs_out(folder, mesh):
             else:
                 code = run(source, "--log", log, "-o", again).returncode
                 check(code == 0 and surface(out) == surface(again), f"{what}: another mesh than its log makes: {done.stderr}")
+        check(written > 0, f"{run_within.__name__}: no mesh written")
         print(f"{run_within.__name__}: {limits[-1]} to {limits[0]} bytes; {written} of {len(limits)} meshes written, "
               f"{told} beside a log that ends before")
 

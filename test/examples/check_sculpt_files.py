@@ -165,6 +165,10 @@ def control_bytes(folder, mesh):
     with open(f"{folder}/byte.script", "wb") as file:
         file.write(b"drag 0 \x9b31m 0 0\n")
     is_text(run(mesh, "--script", f"{folder}/byte.script"), "control character of one byte")
+    for sequence in (b"\xe0\x82\x9b", b"\xf0\x80\x82\x9b", b"\xed\xa0\x80", b"\xf4\x90\x80\x80"):
+        name = os.fsdecode(os.fsencode(folder) + b"/" + sequence + b".script")
+        write(name, "drag 0 1 1\n")
+        is_text(run(mesh, "--script", name), f"a name with {sequence}, which is no character")
     umlaut = write(f"{folder}/räume.script", "drag 0 1 1\n")
     check("räume" in run(mesh, "--script", umlaut).stderr, "letters beyond ASCII are shown")
 

@@ -69,7 +69,9 @@ def refusals(folder):
     check(not report["repaired"] and any(report["left"].values()), f"report of what could not be repaired: {report}")
     vertices, faces = parsed_box()
     point = write(f"{folder}/point.off", off([(1, 2, 3)] * len(vertices), faces))
-    fails(3, ["cannot repair", "no face is left"], run(point, "--repair", "-o", f"{folder}/no.off"), "all points are one")
+    vanished = f"{folder}/vanished.json"
+    fails(3, ["cannot repair", "no face is left"], run(point, "--repair", "--repair-report", vanished, "-o", f"{folder}/no.off"), "all points are one")
+    check(json.loads(bytes_of(vanished))["has_vanished"], "the report says that no face is left")
     check(not os.path.exists(f"{folder}/no.off"), "nothing is written of what could not be repaired")
     mesh = write(f"{folder}/hole.off", off(vertices, faces[2:]))
     fails(3, ["boundary edge"], run(mesh, "--repair", "--repair-largest-hole", 3), "a hole too large")

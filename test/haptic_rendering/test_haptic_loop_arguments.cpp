@@ -99,4 +99,9 @@ BOOST_AUTO_TEST_CASE(a_coupling_that_is_not_passive_is_refused) {
   BOOST_CHECK_THROW(check_coupling({401, 0}, limits), Unstable_coupling);
   BOOST_CHECK_THROW(check_coupling({NAN, 0}, limits), Unstable_coupling);
   check_coupling({400, 0}, limits);
+  limits.calm_stiffness = 300; // where it ends first, which a higher rate does not change
+  BOOST_CHECK_EXCEPTION(check_coupling({500, 0}, limits), Unstable_coupling, [](const Unstable_coupling& error) {
+    const std::string what = error.what();
+    return what.find("not calm") != std::string::npos && what.find("finer encoders") != std::string::npos;
+  });
 }

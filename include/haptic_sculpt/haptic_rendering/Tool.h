@@ -54,9 +54,10 @@ public:
     Tool_step step;
     if (grab_ && !holds_vertex()) // somebody beside the tool took or removed it
       let_go();
-    const bool held_vertex = holds_vertex();
+    const auto in_hand = [this] { return holds_vertex() ? grab_->vertex() : Vertex_index(); };
+    const Vertex_index held = in_hand();
     step.event = press(hand, button);
-    const bool has_changed_hands = holds_vertex() != held_vertex;
+    const bool has_changed_hands = in_hand() != held;
     if (grab_ && !is_anchored_)
       anchor(place_of(grab_->vertex()), hand);
     const bool looks_for_place = placement_ && !has_changed_hands;
@@ -122,7 +123,8 @@ public:
     let_go();
     return mesh_edits_.make(wanted);
   }
-  /// What edit_by() does from here on is one step of undo, until something lets go or the button takes or creates.
+  /// What edit_by() does from here on is one step of undo, until something lets go, or the button takes,
+  /// creates or removes what is there, be it refused.
   void begin_stroke() {
     let_go();
     mesh_edits_.begin_stroke();
@@ -136,7 +138,8 @@ public:
     is_anchored_ = is_anchored_ && carries_probe_;
     return function(mesh_edits_);
   }
-  /// At first the probe is in hand wherever no vertex is. false: only from take_probe() until something lets go.
+  /// At first the probe is in hand wherever no vertex is. false: only from take_probe() until something lets go; one
+  /// that is in hand already, or about to be, stays until then.
   void carry_probe(bool does) { carries_probe_ = does; }
   ///@}
 

@@ -18,7 +18,7 @@ public:
 inline void check_coupling(const Virtual_coupling& coupling, const Passivity_limits& limits) {
   if (limits.permits(coupling))
     return;
-  const bool is_passive = coupling.stiffness <= limits.passive_stiffness;
+  const bool is_passive = limits.largest_stiffness() < limits.passive_stiffness; // up to where it is calm
   throw Unstable_coupling("the stiffness " + internal::number(coupling.stiffness) + " N/m is not " +
                           (is_passive ? "calm" : "passive") + " on this device with the damping " +
                           internal::number(coupling.damping) + " N s/m: that ends at " +

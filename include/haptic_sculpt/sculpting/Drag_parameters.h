@@ -34,9 +34,10 @@ struct Drag_parameters {
     work_limit_pairs = pairs;
     return *this;
   }
-  /// Whether a vertex is dragged once, and then another: then what is near is looked up for this drag alone, and only
-  /// the points of the star are compared with where they were left. It is counted as other work, and the next drag of
-  /// this vertex begins without contacts; where the drag ends without a work limit does not depend on it.
+  /// Whether a vertex is dragged once, and then another. Of a vertex that is in hand it changes nothing. Another one is
+  /// then taken for such drags alone: only the points of the star are compared with where they were left, and the next
+  /// drag of it that is not for once begins without contacts. It is counted as other work; where the drag ends without
+  /// a work limit does not depend on it.
   Drag_parameters& once(bool on = true) {
     is_once = on;
     return *this;

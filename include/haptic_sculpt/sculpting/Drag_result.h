@@ -31,8 +31,8 @@ inline const char* name_of(Drag_end end) {
 /// The outcome of `Grab::drag_to`. A blocked drag is a result like any other.
 template <class Mesh>
 struct Drag_result {
-  /// This many contacts are held without an allocation: all that a slide carries. A stop reports all that come exactly
-  /// first; they are more only where as many features meet in one point.
+  /// This many contacts are held without an allocation. A stop reports all that come exactly first, a slide carries 32
+  /// at most; they are more only where as many features meet in one point, or nearly.
   static constexpr std::size_t usual_contacts = 16;
   /// Like a std::vector.
   using Contacts = boost::container::small_vector<Contact_3<Mesh>, usual_contacts>;
@@ -48,7 +48,7 @@ struct Drag_result {
   typename Mesh::Point position;             ///< where the vertex is now; of a stale Grab, where that Grab had it last
   bool reached = false; ///< whether that is the target, as numbers: +0 is -0, and `end` is Drag_end::reached
   Drag_end end = Drag_end::no_progress;      ///< why the drag ended
-  Contacts contacts;                         ///< what holds it, in an order that depends on the elements only
+  Contacts contacts; ///< what holds it: of a stop in an order of the elements, of a slide as they were met
   int legs = 0; ///< straight motions, each proven, from where it was to `position`; 0 where that is the same
   /// The distance of a stopped vertex from the nearest contact plane, in the unit of the coordinates; where the contact
   /// is flat, as stop_error_along_path; 0 when nothing stopped it. Of the last leg.

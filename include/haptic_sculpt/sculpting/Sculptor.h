@@ -31,7 +31,8 @@ namespace haptic_sculpt {
 ///
 /// An exception leaves everything as it was, std::bad_alloc included, or the change complete where it came from the
 /// visitor. Where it could not, every later call throws Unfinished_change but those that only tell: mesh(),
-/// parameters(), visitor(), filter_counters(), history(), memory() (doc/proofs/edits.md, "Memory that runs out").
+/// parameters(), visitor(), filter_counters(), history(), memory(), clearance(), and probes, which are stale
+/// (doc/proofs/edits.md, "Memory that runs out").
 ///
 /// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
 /// independent. There is no global state.

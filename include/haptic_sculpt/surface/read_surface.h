@@ -147,9 +147,10 @@ inline Face_soup read_face_soup(const std::filesystem::path& path, std::string_v
 /// Reads a valid surface from an OFF, PLY (ASCII or binary), OBJ or STL (ASCII or binary) file, or refuses it whole.
 ///
 /// Vertices and faces are numbered from 0 in file order. STL has no vertices: exactly equal corners become one,
-/// numbered by first appearance. Decimals are read to the nearest double, so what `write_surface()` wrote comes back
-/// bit for bit, whatever rounding mode the caller has set. Colours and other numbers of the vertices of PLY and OBJ are
-/// property maps then (vertex_attributes()). Vertices without faces are refused; repair() leaves them out.
+/// numbered by first appearance. Decimals are read to the nearest double (in a PLY, to the nearest number of the type
+/// that its header gives), so what `write_surface()` wrote comes back bit for bit, whatever rounding mode the caller
+/// has set. Colours and other numbers of the vertices of PLY and OBJ are property maps then (vertex_attributes()).
+/// Vertices without faces are refused; repair() leaves them out.
 ///
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \param path to the file; its extension tells the format

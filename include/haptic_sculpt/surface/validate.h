@@ -246,6 +246,7 @@ Validity_report validate(const Mesh& mesh, double delta = 0,
                          std::size_t most_intersections = Validity_report::default_most_intersections) {
   using Kernel = typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel;
   static_assert(std::is_same_v<typename Kernel::FT, double>, "validate() decides on coordinates of type double");
+  internal::check_length_of_delta(delta);
   if (const auto wrong = internal::inconsistent_elements(mesh); !wrong.empty()) {
     Validity_report report;
     report.delta = delta;

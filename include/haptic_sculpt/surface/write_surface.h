@@ -85,11 +85,36 @@ std::vector<typename Mesh::Vertex_index> written_order(const Mesh& mesh, const W
   return order;
 }
 
-/// The mesh as it will be written. \throw Write_error if no format can hold it
+/// \throw Write_error if STL cannot hold the elements, which it names as the mesh does
+template <class Mesh>
+void check_elements_for_stl(const Mesh& mesh) {
+  std::vector<bool> has_face(mesh.number_of_vertices() + mesh.number_of_removed_vertices(), false);
+  for (const auto f : mesh.faces())
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+      has_face[v] = true;
+  for (const auto v : mesh.vertices())
+    if (!has_face[v])
+      throw Write_error("STL holds no vertices without faces, such as vertex " + std::to_string(std::size_t(v)) +
+                        "; remove it, or write PLY, OFF or OBJ");
+  for (const auto f : mesh.faces())
+    if (mesh.degree(f) != 3)
+      throw Write_error("STL holds triangles only, but face " + std::to_string(std::size_t(f)) + " has " +
+                        std::to_string(mesh.degree(f)) + " corners");
+}
+
+/// The same of binary PLY, which counts corners by a byte.
+template <class Mesh>
+void check_elements_for_binary_ply(const Mesh& mesh) {
+  for (const auto f : mesh.faces())
+    if (mesh.degree(f) > 255)
+      throw Write_error("face " + std::to_string(std::size_t(f)) +
+                        " has more than the 255 corners of binary PLY; write OFF or OBJ");
+}
+
+/// The mesh as it will be written. \pre its connectivity does not contradict itself
+/// \throw Write_error if no format can hold it
 template <class Mesh>
 Face_soup compacted(const Mesh& mesh, const Write_parameters& parameters) {
-  if (!inconsistent_elements(mesh).empty())
-    throw Write_error("the connectivity of the mesh contradicts itself; see validate()");
   Face_soup soup = face_soup(mesh);
   const auto order = written_order(mesh, parameters);
   std::vector<Face_soup::Index> place(soup.points.size());
@@ -118,21 +143,8 @@ inline Face_soup rounded_to_float(Face_soup soup) {
   return soup;
 }
 
-/// \throw Write_error if STL cannot hold the surface without loss, and loss is not allowed
-[[gnu::cold]] inline void prepare_stl(Face_soup& soup, bool binary, bool allow_rounding) {
-  std::vector<bool> used(soup.points.size(), false);
-  for (const auto corner : soup.corners)
-    used[corner] = true;
-  for (std::size_t v = 0; v < used.size(); ++v)
-    if (!used[v])
-      throw Write_error("STL holds no vertices without faces, such as vertex " + std::to_string(v) +
-                        "; remove it, or write PLY, OFF or OBJ");
-  for (std::size_t f = 0; f < soup.number_of_faces(); ++f)
-    if (soup.number_of_corners(f) != 3)
-      throw Write_error("STL holds triangles only, but face " + std::to_string(f) + " has " +
-                        std::to_string(soup.number_of_corners(f)) + " corners");
-  if (!binary)
-    return;
+/// \throw Write_error if binary STL cannot hold the coordinates without loss, and loss is not allowed
+[[gnu::cold]] inline void round_for_binary_stl(Face_soup& soup, bool allow_rounding) {
   Face_soup rounded = rounded_to_float(soup);
   if (rounded.points == soup.points)
     return;
@@ -141,22 +153,22 @@ inline Face_soup rounded_to_float(Face_soup soup) {
         "binary STL holds floats, and the coordinates do not fit in them; write ASCII STL or PLY, or allow "
         "rounding");
   if (const Validity_report report = validate_soup(rounded); !report.is_valid())
-    throw Write_error("rounded to the floats of binary STL the surface is no longer valid; write ASCII STL or PLY:\n" +
+    throw Write_error("rounded to the floats of binary STL the surface is no longer valid; write ASCII STL or PLY "
+                      "(elements in the order of the file):\n" +
                       report.message());
   soup = std::move(rounded);
 }
 
-/// The first face with more corners than a byte can count; number_of_faces() if there is none.
-inline std::size_t face_beyond_byte(const Face_soup& soup) {
-  std::size_t f = 0;
-  while (f < soup.number_of_faces() && soup.number_of_corners(f) <= 255)
-    ++f;
-  return f;
+/// Whether a face has more corners than a byte can count.
+inline bool is_beyond_byte(const Face_soup& soup) {
+  for (std::size_t f = 0; f < soup.number_of_faces(); ++f)
+    if (soup.number_of_corners(f) > 255)
+      return true;
+  return false;
 }
 
-/// \throw Write_error if a face has more corners than the byte that binary PLY counts them with can say, or a header
-/// cannot name an attribute
-inline void prepare_ply(const Face_soup& soup, bool binary) {
+/// \throw Write_error if a header of PLY cannot name an attribute
+inline void check_attributes_for_ply(const Face_soup& soup) {
   std::set<std::string> names = {"x", "y", "z"};
   if (names.size() + soup.attributes.size() > most_names)
     throw Write_error("vertices have " + std::to_string(soup.attributes.size()) + " attributes, of which a PLY file " +
@@ -171,15 +183,13 @@ inline void prepare_ply(const Face_soup& soup, bool binary) {
                                    : "is no single word") +
                         "; give it another name");
   }
-  if (const std::size_t f = face_beyond_byte(soup); binary && f != soup.number_of_faces())
-    throw Write_error("face " + std::to_string(f) + " has more than the 255 corners of binary PLY; write OFF or OBJ");
 }
 
 /// The text or bytes of the file, by CGAL's writers as far as they can say it. They are given a stream of their own, in
 /// the C locale and with 17 digits, which bring every double back.
 [[gnu::cold]] inline std::string file_contents(const Face_soup& soup, Mesh_file_format format, bool binary) {
   if (format == Mesh_file_format::ply && // CGAL counts corners by bytes, as text, too
-      (!soup.attributes.empty() || face_beyond_byte(soup) != soup.number_of_faces()))
+      (!soup.attributes.empty() || is_beyond_byte(soup)))
     return format_ply(soup, binary);
   if (format == Mesh_file_format::stl)
     return format_stl(soup, binary);
@@ -220,11 +230,18 @@ std::string surface_bytes(const Mesh& mesh, Mesh_file_format format, const Write
     throw Write_error("only PLY and STL are written in binary");
   const bool binary = parameters.encoding_kind == Encoding::binary ||
                       (parameters.encoding_kind == Encoding::automatic && format == Mesh_file_format::ply);
+  if (!internal::inconsistent_elements(mesh).empty())
+    throw Write_error("the connectivity of the mesh contradicts itself; see validate()");
+  const bool is_stl = format == Mesh_file_format::stl, is_ply = format == Mesh_file_format::ply;
+  if (is_stl)
+    internal::check_elements_for_stl(mesh);
+  if (is_ply && binary)
+    internal::check_elements_for_binary_ply(mesh);
   Face_soup soup = internal::compacted(mesh, parameters);
-  if (format == Mesh_file_format::stl)
-    internal::prepare_stl(soup, binary, parameters.is_rounding_allowed);
-  if (format == Mesh_file_format::ply)
-    internal::prepare_ply(soup, binary);
+  if (is_stl && binary)
+    internal::round_for_binary_stl(soup, parameters.is_rounding_allowed);
+  if (is_ply)
+    internal::check_attributes_for_ply(soup);
   return internal::file_contents(soup, format, binary);
 }
 

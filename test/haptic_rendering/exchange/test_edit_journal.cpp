@@ -4,6 +4,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <functional>
 #include <memory>
 #include <random>
 #include <stdexcept>
@@ -13,6 +14,14 @@ using namespace haptic_sculpt;
 using namespace exchange_tests;
 
 namespace {
+
+struct Calling_visitor : Default_edit_visitor {
+  std::function<void()> when_moved;
+  void vertex_moved(Mesh::Vertex_index) {
+    if (when_moved)
+      when_moved();
+  }
+};
 
 BOOST_AUTO_TEST_CASE(a_removal_where_a_probe_stands_is_told_as_the_collapse_that_it_was) {
   std::mt19937_64 random(23);
@@ -124,6 +133,31 @@ BOOST_AUTO_TEST_CASE(a_drag_by_a_grab_that_somebody_has_ended_is_no_move) {
   journal.end_tick(0);
   Edit taken;
   BOOST_TEST((!journal.take(taken) && !journal.has_overrun()));
+}
+
+BOOST_AUTO_TEST_CASE(a_drag_within_which_its_grab_goes_elsewhere_is_told) {
+  using Calling_sculptor = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Calling_visitor>;
+  for (const bool ends : {false, true}) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
+    Calling_sculptor sculptor(mesh);
+    Edit_journal journal(100);
+    Journaled_edits<Calling_sculptor> edits(sculptor);
+    edits.keep_journal(&journal);
+    auto stale = sculptor.grab(Mesh::Vertex_index(18)), grab = sculptor.grab(Mesh::Vertex_index(17));
+    sculptor.visitor().when_moved = [&] {
+      if (ends)
+        const auto taken = std::move(grab);
+      else
+        edits.drag(stale, Mesh::Point(0, 0, 0), std::nullopt);
+    };
+    const Mesh::Point p = mesh.point(Mesh::Vertex_index(17));
+    edits.drag(grab, Mesh::Point(1.1 * p.x(), 1.1 * p.y(), 1.1 * p.z()), std::nullopt);
+    BOOST_TEST((mesh.point(Mesh::Vertex_index(17)) != p));
+    journal.end_tick(0);
+    Edit taken;
+    BOOST_TEST((journal.take(taken) && taken.kind == Edit_kind::move && taken.vertices[0] == 17u));
+    BOOST_TEST(!journal.has_overrun());
+  }
 }
 
 BOOST_AUTO_TEST_CASE(moves_by_subnormal_lengths_are_told_to_callers_who_flush_them) {

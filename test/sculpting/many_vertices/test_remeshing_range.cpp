@@ -166,6 +166,17 @@ BOOST_AUTO_TEST_CASE(a_number_of_faces_bounds_the_work) {
                     Invalid_parameter);
 }
 
+// In the unit of such a length the squares of edges overflow.
+BOOST_AUTO_TEST_CASE(a_length_that_nothing_is_divided_by_may_be_any) {
+  for (const double length : {1e-60, 1e-100, 1e-120, 1e-300, 1e60, 1e300}) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2));
+    Sculptor<Mesh> sculptor(mesh);
+    isotropic_remeshing(sculptor, length,
+                        CGAL::parameters::do_split(false).do_collapse(false).number_of_iterations(2));
+    BOOST_TEST(validate(mesh).is_valid());
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_face_given_twice_counts_once) {
   const auto remeshed = [](std::size_t times) {
     Mesh mesh = meshes::to_mesh(meshes::icosphere(1));

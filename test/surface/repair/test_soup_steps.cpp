@@ -3,9 +3,14 @@
 #include "surface/repair/count_of.h"
 #include "surface/soup_of.h"
 
+#include <meshes/broken_meshes.h>
+
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <set>
 
 namespace {
 
@@ -68,6 +73,66 @@ BOOST_AUTO_TEST_CASE(attributes_of_points_that_do_not_move_stay_beside_points_th
   BOOST_REQUIRE(soup.points.size() == before.size() - 1);
   for (std::size_t v = 0; v < soup.points.size(); ++v)
     BOOST_TEST((soup.points[v] == before[static_cast<std::size_t>(soup.attributes[0].values[v])]));
+}
+
+// As the pixels of a depth image that saw nothing: a search tree of equal points would be as deep as they are many.
+BOOST_AUTO_TEST_CASE(attributes_beside_many_points_at_one_place) {
+  Face_soup soup = soup_of(meshes::tetrahedron());
+  soup.points.insert(soup.points.begin(), 100000, Point_3(9, 9, 9));
+  for (auto& corner : soup.corners)
+    corner += 100000;
+  soup.points.emplace_back(0x1p1000, 0, 0);
+  soup.attributes.push_back({"number", haptic_sculpt::Vertex_attribute::Type::float64, {}});
+  for (std::size_t v = 0; v < soup.points.size(); ++v)
+    soup.attributes[0].values.push_back(static_cast<double>(v));
+  BOOST_TEST(repair(soup).is_repaired());
+  BOOST_REQUIRE(soup.points.size() == 4u);
+  const std::vector<Point_3> before = soup_of(meshes::tetrahedron()).points;
+  for (std::size_t v = 0; v < 4; ++v)
+    BOOST_TEST((soup.points[v] == before[static_cast<std::size_t>(soup.attributes[0].values[v]) - 100000]));
+}
+
+// The unit to compute in is that of the faces.
+BOOST_AUTO_TEST_CASE(a_point_without_a_face_that_is_far_off_does_not_matter) {
+  const auto triangles_of = [](const Face_soup& soup) {
+    std::set<std::array<Point_3, 3>> all;
+    for (std::size_t f = 0; f < soup.number_of_faces(); ++f) {
+      std::array<Point_3, 3> corners{soup.points[soup.begin(f)[0]], soup.points[soup.begin(f)[1]],
+                                     soup.points[soup.begin(f)[2]]};
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      all.insert(corners);
+    }
+    return all;
+  };
+  for (const double size : {1.0, 0x1p-600, 0x1p600}) {
+    Face_soup alone = soup_of(meshes::ball_with_a_hole().scale_and_move(size, 0, 0, 0)), beside = alone;
+    for (const double far : {0x1p500, 0x1p1000, 0x1p-600, 0x1p-1074})
+      beside.points.emplace_back(far, far, far);
+    BOOST_TEST(repair(alone).is_repaired());
+    const Repair_report report = repair(beside);
+    BOOST_TEST(report.is_repaired());
+    BOOST_TEST(count_of(report, Repair_kind::drop_points, "points without faces dropped") >= 4u);
+    BOOST_TEST((triangles_of(alone) == triangles_of(beside)));
+  }
+}
+
+// Faces with a hole enclose no volume, whichever corner they begin with.
+BOOST_AUTO_TEST_CASE(an_open_part_is_no_sheet) {
+  for (int first = 0; first < 3; ++first) {
+    Face_soup soup = soup_of(meshes::icosphere(1));
+    const auto apex = soup.points.size();
+    soup.points.emplace_back(10, 0, 1);
+    for (int k = 0; k < 5; ++k) // a fan that winds about its apex twice, and so crosses itself
+      soup.points.emplace_back(10 + std::cos(k * 2.513274), std::sin(k * 2.513274), 0);
+    for (std::size_t k = 0; k < 5; ++k) {
+      std::array<std::size_t, 3> face{apex + 1 + k, apex + 1 + (k + 1) % 5, apex};
+      std::rotate(face.begin(), face.begin() + first, face.end());
+      soup.add_face(face);
+    }
+    const Repair_report report = repair(soup, haptic_sculpt::Repair_parameters().largest_hole(4));
+    BOOST_TEST(!report.is_repaired());
+    BOOST_TEST(report.left.boundary_edges.size() == 5u);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

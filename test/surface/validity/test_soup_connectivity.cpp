@@ -118,6 +118,7 @@ BOOST_AUTO_TEST_CASE(inconsistent_connectivity) {
   const auto h = mesh.halfedge(F(3));
   mesh.set_next_only(h, h);
   BOOST_TEST(!validate(mesh).inconsistent_halfedges.empty());
+  BOOST_CHECK_THROW(validate(mesh, -1), haptic_sculpt::Error);
   mesh = to_mesh(meshes::cube());
   mesh.set_target(h, V(1000));
   BOOST_TEST(!validate(mesh).inconsistent_halfedges.empty());

@@ -29,7 +29,8 @@ struct Loop_command {
     let_go, ///< what the hand holds, until the button is pressed again
     edit,   ///< `edit`, no stroke and no end; to undo, a grab from the button's press to its release is one step
     task,   ///< `task`; what is asked for later is done beside it
-    enter,  ///< another `scene` than the one sculpted so far, which comes back, once no task is under way
+    enter,  ///< another `scene` than the one sculpted so far, which comes back, once no task is under way; what is
+            ///< asked for later waits behind it
     clutch, ///< opened or closed, as `opens` says
     zoom,   ///< by `factor`, once the clutch is closed
     restart ///< after a fault

@@ -77,12 +77,19 @@ public:
   /// A drag of a vertex of the surface; its legs are reported. \throw what drags throw
   Result drag(Grab_type& grab, const Point& target, const std::optional<Drag_parameters>& parameters) {
     const internal::Rounding_to_nearest rounding; // points that differ by a subnormal number differ
-    const auto result = or_break_off([&] { return grab.drag_to(target, legs_, parameters); });
-    if (!legs_.empty()) // a place twice in a row, and +0 beside -0, is no leg
-      legs_.erase(std::unique(legs_.begin(), legs_.end()), legs_.end());
-    in_one_step(legs_.size() > 2, [&] {
-      for (std::size_t k = 1; k < legs_.size(); ++k)
-        add_move(grab.vertex(), legs_[k]);
+    const Vertex_index v = grab.vertex(); // a visitor may move the Grab elsewhere, or drag by it once more
+    struct Borrowed { // with its room
+      std::vector<Point>& from;
+      std::vector<Point> legs = std::move(from);
+      ~Borrowed() { from = std::move(legs); }
+    } borrowed{legs_};
+    std::vector<Point>& legs = borrowed.legs;
+    const auto result = or_break_off([&] { return grab.drag_to(target, legs, parameters); });
+    if (!legs.empty()) // a place twice in a row, and +0 beside -0, is no leg
+      legs.erase(std::unique(legs.begin(), legs.end()), legs.end());
+    in_one_step(legs.size() > 2, [&] {
+      for (std::size_t k = 1; k < legs.size(); ++k)
+        add_move(v, legs[k]);
     });
     return result;
   }
@@ -179,6 +186,7 @@ private:
     void tell_visitor(bool does) { guarded().tell_visitor(does); }
     auto asking() { return guarded().asking(); }
     auto& axis_move() { return guarded().axis_move(); }
+    void check_clearance_serves() { guarded().check_clearance_serves(); }
     const auto& obstacles_to(int axis, const internal::Axis_ways<Mesh_type>& ways, const Part_runner& run,
                              internal::Pair_budget* pairs = nullptr) {
       return guarded().obstacles_to(axis, ways, run, pairs);

@@ -170,14 +170,14 @@ private:
     }
   }
 
-  void carry_out(const Loop_command<Scene>& command) {
+  void carry_out(Loop_command<Scene>& command) {
     Loop_answer<Scene> answer = answer_to(command, true);
     if (attempt(answer, [&] { return is_done(command, answer); }))
       queue_->answer(answer);
   }
 
   /// \return false for a task that is to go on: answered when it is done
-  bool is_done(const Loop_command<Scene>& command, Loop_answer<Scene>& answer) {
+  bool is_done(Loop_command<Scene>& command, Loop_answer<Scene>& answer) {
     switch (command.kind) {
     case Kind::let_go:
       loop_->tool().let_go();
@@ -196,7 +196,7 @@ private:
       if (command.task == nullptr)
         throw Error("the command is of the kind `task`, and has none");
       if (!command.task->go_on(*scene_, loop_->tool())) {
-        tasks_.push_back(command);
+        tasks_.push_back(std::move(command)); // a copy could lack memory, after the task has begun
         return false;
       }
       break;

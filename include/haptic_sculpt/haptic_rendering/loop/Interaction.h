@@ -53,6 +53,8 @@ public:
       return false;
     if (!is_first) // no step leads to where a loop begins
       observer_.add_step(side_.effort_step(), stiffness_, side_.step(), elapsed_);
+    if (side_.has_force() && !std::isfinite(observer_.balance())) // after a step that no hand makes
+      watchdog_.report(Loop_fault::not_finite);
     if (side_.has_force() && observer_.is_active())
       watchdog_.report(Loop_fault::energy);
     return watchdog_.fault() == Loop_fault::none;
@@ -103,7 +105,7 @@ public:
 
   /// After a fault: forces come back slowly, from 0. What the observer missed is forgotten.
   void restart() {
-    if (watchdog_.fault() == Loop_fault::energy)
+    if (watchdog_.fault() == Loop_fault::energy || !std::isfinite(observer_.balance()))
       observer_.restart();
     watchdog_.reset(), side_.restart(), virtual_mass_.restart();
     spring_.setZero(), rendered_ = Rendered_force(), is_paid_ = false, has_last_ = false;

@@ -23,13 +23,12 @@ public:
   Simulated_device(const Device_parameters<double>& parameters, const Device_pose<double>& start,
                    const Simulated_hand& hand, const Hand_path& path, double tick, double delay_in_ticks)
       : parameters_(parameters)
-      , moving_(with_mass_at_handle(parameters, hand.stage[0].mass))
+      , moving_(with_mass_at_handle(parameters, hand))
       , hand_(hand)
       , path_(&path)
       , tick_(tick)
       , held_(delay_in_ticks)
       , interaction_(delay_in_ticks) {
-    hand.check();
     state_.device.pose = start;
     state_.further << hand.at_rest(start.position), 0.0;
   }
@@ -96,9 +95,11 @@ private:
   Torque_delay<double> held_, interaction_;
   Coupled_state<double, states> state_;
 
-  static Device_parameters<double> with_mass_at_handle(const Device_parameters<double>& parameters, double mass) {
+  static Device_parameters<double> with_mass_at_handle(const Device_parameters<double>& parameters,
+                                                       const Simulated_hand& hand) {
+    hand.check();
     Device_description<double> d = parameters.description();
-    d.platform_mass += mass;
+    d.platform_mass += hand.stage[0].mass;
     return Device_parameters<double>(d);
   }
 

@@ -43,7 +43,7 @@ struct Simulated_hand {
     }
   }
 
-  /// A light grip that is held still: 300 N/m and 3 N s/m. doc/proofs/haptic_stability.md has the sources of all three.
+  /// A light grip that is held still: 300 N/m and 3 N s/m. doc/results/haptics.md has the sources of all three.
   static Simulated_hand finger() { return {1, {{{0, 300, 3}}}}; }
   /// The grip of a stylus, 575 N/m and 1.3 N s/m, and the arm behind it, 0.21 kg, 175 N/m and 11 N s/m.
   static Simulated_hand arm() { return {2, {{{0, 575, 1.3}, {0.21, 175, 11}}}}; }

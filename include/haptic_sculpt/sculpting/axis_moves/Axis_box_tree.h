@@ -27,19 +27,26 @@ public:
     }
     touched_.clear();
     active_.clear();
+    is_refitted_ = true;
   }
 
   /// From here on nothing is active.
   void begin_round() {
+    if (!is_refitted_) // memory ran out, and `active_` lacks what was put
+      for (auto& level : levels_)
+        for (Axis_box_node& node : level)
+          node.is_active = 0;
     for (std::uint32_t node : active_)
       for (auto& level : levels_) {
         level[node].is_active = 0;
         node /= width;
       }
     active_.clear();
+    is_refitted_ = false;
   }
 
   void set(std::uint32_t slot, const Axis_box& box, bool is_active) {
+    is_refitted_ = false;
     put(slot, box, is_active);
     const std::uint32_t number = slot / width;
     if (touched_.empty() || touched_.back() != number)
@@ -70,6 +77,7 @@ public:
     for (std::uint32_t number = 0; number < levels_[0].size(); ++number)
       if (levels_[0][number].is_active != 0)
         active_.push_back(number);
+    is_refitted_ = true;
   }
 
   /// Brings the boxes above what has been set up to date.
@@ -87,6 +95,7 @@ public:
       touched_.resize(count);
     }
     touched_.clear();
+    is_refitted_ = true;
   }
 
   /// Two nodes of a level, or one and itself, whose slots are to be looked at together.
@@ -131,6 +140,7 @@ private:
   std::vector<std::uint32_t> touched_;             ///< nodes of the lowest level that have been set and not refitted
   std::vector<std::uint32_t> active_;              ///< those with an active child
   std::vector<Join> joins_;
+  bool is_refitted_ = true; ///< since the last slot was put
 
   static void adopt(Axis_box_node& node, std::size_t child, const Axis_box_node& below) {
     node.set(child % width, below.all());

@@ -50,7 +50,7 @@ bool is_within_distance(const std::array<Integer, 3>& p, const std::array<std::a
   };
   const auto square = distance * distance;
   const auto normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
-  bool is_over_face = true;
+  bool is_over_face = sign_of(dot(normal, normal)) != 0; // within an undo of several steps a face may have no area
   for (int i = 0; i < 3; ++i) {
     const auto from_corner = minus(p, corners[i]), side = minus(corners[(i + 1) % 3], corners[i]);
     const auto beyond = dot(from_corner, from_corner) - square;

@@ -17,6 +17,7 @@ public:
       : guard_(guard), mesh_(mesh), rules_(rules), leg_(leg), held_(held) {}
 
   Coordinates leg(const Coordinates& source, const Coordinates& target) override {
+    leg_.legs = 0; // which it counts up
     const Coordinates end = guard_.leg(source, target, rules_, leg_);
     if (end != target)
       held_ = leg_;

@@ -117,6 +117,9 @@ public:
     return result;
   }
 
+  /// \throw Invalid_parameter where the scene has outgrown the clearance of drags that are given none
+  void check_clearance_serves() { scene_.check_clearance_serves(parameters.drag.clearance_length); }
+
   bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& given, double delta) {
     const Rounding_to_nearest rounding;
     check_may_change();

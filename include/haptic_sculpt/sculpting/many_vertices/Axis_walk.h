@@ -52,7 +52,9 @@ public:
         continue;
       }
       take_back();
-      step /= 2;
+      do
+        step /= 2;
+      while (way + step >= next); // the same once more
       if (step < worth_trying && (step < least_step || 2 * held > before))
         break;
       before = held;

@@ -44,7 +44,9 @@ public:
       else if (step == least_step || is_ended())
         return;
       else
-        step /= 2;
+        do
+          step /= 2;
+        while (step > least_step && report_.share + step >= next); // the same once more
     }
   }
 

@@ -52,15 +52,15 @@ void check_number_of_faces(const Mesh& mesh, const Scaled_points<Mesh>& points,
     for (const Vector& side : {minus(b, a), minus(c, b), minus(a, c)})
       more_edges += larger(0, length(side) / longest - 1) / 2;
   }
-  const double now = static_cast<double>(faces.size()), least = larger(area / largest_area, now + more_edges * 2 / 3),
-               most = static_cast<double>(parameters.most_number_of_faces) -
-                      static_cast<double>(mesh.number_of_faces() - faces.size());
+  const double now = static_cast<double>(faces.size()), others = static_cast<double>(mesh.number_of_faces()) - now,
+               least = others + larger(area / largest_area, now + more_edges * 2 / 3),
+               most = static_cast<double>(parameters.most_number_of_faces);
   if (more_edges <= 0 || least <= most)
     return;
   // Where edges are longer than doubles can tell in the unit, their number is not a number.
   throw Invalid_parameter("the target edge length " + number(target_edge_length) + " is too short: it takes at least " +
-                          (std::isnan(least) ? "2^1000" : number(least)) + " faces, and " + number(most) +
-                          " may be made: give a longer one, or allow for more faces");
+                          (std::isnan(least) ? "2^1000" : number(least)) + " faces in all, and " + number(most) +
+                          " may be there: give a longer one, or allow for more faces");
 }
 
 } // namespace haptic_sculpt::internal

@@ -7,6 +7,7 @@
 
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <map>
@@ -73,13 +74,22 @@ private:
       if (crossed_.count(component_of_[f]) != 0)
         faces[component_of_[f]].push_back(f);
     for (const auto& [c, of_component] : faces)
-      if (volume_sign(soup_, of_component) == CGAL::ZERO)
+      if (volume_sign(soup_, of_component) == CGAL::ZERO && is_closed(of_component)) // else the sign says nothing
         sheets_.insert(c);
     for (const std::size_t c : sheets_)
       crossed_.erase(c);
     for (auto meeting = meeting_.begin(); meeting != meeting_.end();)
       meeting = sheets_.count(meeting->first.first) + sheets_.count(meeting->first.second) > 0 ? meeting_.erase(meeting)
                                                                                            : std::next(meeting);
+  }
+
+  bool is_closed(const std::vector<Index>& faces) const {
+    std::set<std::pair<Index, Index>> arcs;
+    for (const Index f : faces)
+      for (int i = 0; i < 3; ++i)
+        arcs.emplace(soup_.begin(f)[i], soup_.begin(f)[(i + 1) % 3]);
+    return std::all_of(arcs.begin(), arcs.end(),
+                       [&](const auto& arc) { return arcs.count({arc.second, arc.first}) != 0; });
   }
 
   static void append(const Face_soup& part, Face_soup& soup) {

@@ -16,7 +16,7 @@ namespace haptic_sculpt::internal {
 class Repairer {
 public:
   Repairer(const Face_soup& soup, const Repair_parameters& parameters)
-      : soup_(soup), parameters_(parameters), scale_(soup), trail_(soup) {
+      : soup_(soup), parameters_(parameters), scale_(soup, parameters.gap_length), trail_(soup) {
     scale_.down(soup_);
     trail_ = Trail(soup_);
     if (parameters_.gap_length)

@@ -5,26 +5,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace haptic_sculpt::internal {
 
 /// A power of two that brings very large or very small coordinates near 1, where squares and volumes, which CGAL's
-/// constructions round, neither overflow nor vanish. 1 where a coordinate would lose a bit by it, or there is no need.
+/// constructions round, neither overflow nor vanish. 1 where a coordinate or the gap would lose a bit by it, or there
+/// is no need. Only points of faces count.
 class Unit_scale {
   static constexpr int widest = 100; ///< binary exponents up to this are left as they are: a sixth power stays in range
 
 public:
   /// \pre the points are finite
-  explicit Unit_scale(const Face_soup& soup) {
+  Unit_scale(const Face_soup& soup, std::optional<double> gap) {
     double largest = 0;
-    for (const auto& p : soup.points)
-      largest = std::max({largest, std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+    for (const auto corner : soup.corners)
+      for (int k = 0; k < 3; ++k)
+        largest = std::max(largest, std::abs(soup.points[corner][k]));
     if (largest == 0 || std::abs(std::ilogb(largest)) <= widest)
       return;
     exponent_ = std::ilogb(largest);
-    for (const auto& p : soup.points)
+    if (gap && std::isnormal(*gap) && std::fpclassify(down(*gap)) == FP_SUBNORMAL) // it may be another one
+      exponent_ = 0;
+    for (const auto corner : soup.corners)
       for (int k = 0; k < 3; ++k)
-        if (up(down(p[k])) != p[k]) {
+        if (const double x = soup.points[corner][k]; up(down(x)) != x) {
           exponent_ = 0;
           return;
         }
@@ -36,10 +42,15 @@ public:
   void up(Face_soup& soup) const { scale(soup, exponent_); }
 
 private:
+  /// Points that no face has stay where they are: no number may hold where they would come to.
   static void scale(Face_soup& soup, int exponent) {
-    if (exponent != 0)
-      for (auto& p : soup.points)
+    std::vector<bool> is_done(soup.points.size(), exponent == 0);
+    for (const auto corner : soup.corners)
+      if (!is_done[corner]) {
+        auto& p = soup.points[corner];
         p = Face_soup::Point_3(std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent));
+        is_done[corner] = true;
+      }
   }
 
   int exponent_ = 0;

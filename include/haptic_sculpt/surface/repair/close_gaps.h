@@ -13,7 +13,7 @@
 
 namespace haptic_sculpt::internal {
 
-/// Points on open edges that are nearly equal become one, the first of them.
+/// Points on open edges that are nearly equal become one, at the place of one of them.
 class Gap_closer {
   using Point = Face_soup::Point_3;
   using Number = Exact_ring_number;

@@ -15,8 +15,7 @@
 namespace haptic_sculpt::internal {
 
 /// Each point of `to` gets the values of the first point of `from` at its place; one that has moved, of the nearest.
-/// Distances are rounded, in a unit of the size of the points: squares of small ones would be 0. \pre all points are
-/// finite
+/// Distances are rounded, in a unit of the size of `to`: squares of small ones would be 0. \pre all points are finite
 inline void copy_attributes(const Face_soup& from, Face_soup& to) {
   if (from.attributes.empty() || from.points.empty())
     return;
@@ -24,18 +23,27 @@ inline void copy_attributes(const Face_soup& from, Face_soup& to) {
   using Traits = CGAL::Search_traits_adapter<Entry, CGAL::First_of_pair_property_map<Entry>,
                                              CGAL::Search_traits_3<Decision_kernel>>;
   double largest = 0;
-  for (const auto& p : from.points)
+  for (const auto& p : to.points)
     largest = std::max({largest, std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
   const int exponent = largest > 0 ? std::ilogb(largest) : 0;
   const auto in_unit = [exponent](const Face_soup::Point_3& p) {
-    return Face_soup::Point_3(std::ldexp(p[0], -exponent), std::ldexp(p[1], -exponent), std::ldexp(p[2], -exponent));
+    const auto one = [exponent](double x) { // squares stay in range; nothing that far is nearest
+      return std::clamp(std::ldexp(x, -exponent), -0x1p200, 0x1p200);
+    };
+    return Face_soup::Point_3(one(p[0]), one(p[1]), one(p[2]));
   };
-  std::vector<Entry> entries, places;
-  for (std::size_t v = 0; v < from.points.size(); ++v) {
-    entries.emplace_back(in_unit(from.points[v]), v);
+  const auto first_of_each_place = [](std::vector<Entry>& entries) {
+    std::sort(entries.begin(), entries.end());
+    const auto is_one_place = [](const Entry& a, const Entry& b) { return a.first == b.first; };
+    entries.erase(std::unique(entries.begin(), entries.end(), is_one_place), entries.end());
+  };
+  std::vector<Entry> places, entries;
+  for (std::size_t v = 0; v < from.points.size(); ++v)
     places.emplace_back(from.points[v], v);
-  }
-  std::sort(places.begin(), places.end());
+  first_of_each_place(places);
+  for (const Entry& place : places)
+    entries.emplace_back(in_unit(place.first), place.second);
+  first_of_each_place(entries); // CGAL's tree is as deep as points are equal
   CGAL::Kd_tree<Traits> tree(entries.begin(), entries.end());
   const auto source_of = [&](const Face_soup::Point_3& p) {
     const auto place = std::lower_bound(places.begin(), places.end(), Entry(p, 0));

@@ -124,8 +124,8 @@ private:
   }
 
 public:
-  /// This many pairs of intersecting faces are looked at, 16 bytes each: there can be as many as the square of the
-  /// faces.
+  /// This many pairs of intersecting faces are looked at, approximately 60 bytes each: there can be as many as the
+  /// square of the faces.
   static constexpr std::size_t most_pairs = 4000000;
 
 private:
