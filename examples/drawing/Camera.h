@@ -100,9 +100,7 @@ public:
     aim_ += (rotation_ * pivot).head<2>() - before;
   }
   /// Looks along a direction, as View says, at the same zoom.
-  void look(const Eigen::Vector3d& direction, const Eigen::Vector3d& up) {
-    look_along(unit(direction), unit(up));
-  }
+  void look(const Eigen::Vector3d& direction, const Eigen::Vector3d& up) { look_along(unit(direction), unit(up)); }
   /// Magnifies by a factor; what is seen at `pixel` stays there.
   void magnify(double factor, const Eigen::Vector2d& pixel) {
     const Eigen::Vector2d before = in_plane(pixel);

@@ -131,8 +131,9 @@ Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script, const
       [[fallthrough]];
     case Kind::remesh:
       throw Script_error(name, command.line, 1,
-                         std::string("'") + name_of(command) + "' does more than to move vertices: --compare takes "
-                         "scripts of drags, moves and brushes only");
+                         std::string("'") + name_of(command) +
+                             "' does more than to move vertices: --compare takes "
+                             "scripts of drags, moves and brushes only");
     default: break;
     }
   return mesh;

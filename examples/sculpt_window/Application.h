@@ -119,7 +119,7 @@ private:
   std::string to_open_;   ///< as soon as nothing is under way
   std::vector<examples::Named_file> opening_; ///< what is being opened, or is to be, and its log
   std::pair<std::string, std::uint64_t> next_open_; ///< asked for once while there was unsaved work: of how many edits
-  std::vector<examples::Named_file> unopened_; ///< by a script, what was refused for that, and not opened since
+  std::vector<examples::Named_file> unopened_;      ///< by a script, what was refused for that, and not opened since
   bool opens_for_script_ = false;                   ///< what is being opened
   std::uint64_t edits_when_opening_ = 0;            ///< of the mesh that is shown till then
   bool has_failed_to_open_ = false;

@@ -288,10 +288,9 @@ void Application::flush_record() {
 
 int Application::finish() {
   if (!unopened_.empty())
-    fail_to_open(
-        "'" + unopened_.front().path +
-            "' was not opened, for there was unsaved work: save that before, or give `open` twice to leave it",
-        true);
+    fail_to_open("'" + unopened_.front().path +
+                     "' was not opened, for there was unsaved work: save that before, or give `open` twice to leave it",
+                 true);
   while (!to_save_.empty() || background_.is_saving()) {
     status_ = thread_.status(); // how large the mesh is by now: for what is copied again
     take_answers(), take_saved();
