@@ -3,6 +3,7 @@
 // draw.
 #include "common/contents_of.h"
 #include "common/json_words.h"
+#include "common/output_targets.h"
 #include "common/parse_arguments.h"
 #include "common/run_program.h"
 #include "device_json.h"
@@ -146,6 +147,8 @@ int print_figures(int argument_count, char** arguments) {
   std::error_code is_missing;
   if (std::filesystem::equivalent(file, device, is_missing))
     throw examples::Usage_error("the samples would replace the device: both are '" + device + "'");
+  if (const char* const stream = file.empty() ? nullptr : examples::standard_stream_at(file); stream != nullptr)
+    throw examples::Usage_error("'" + file + "' is the file of standard " + stream + "; give the samples another name");
   if (!file.empty())
     check_target(file);
   std::ostringstream samples;

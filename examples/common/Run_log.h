@@ -35,7 +35,7 @@ public:
     if (!file_ || !file_->contents())
       return "";
     replay_log(scene.sculptor, file_->contents()->commands);
-    return file_->contents()->unfinished.empty() ? "" : "the end of the log, of a tick that is not whole, was dropped";
+    return file_->contents()->unfinished.empty() ? "" : "the end of the log, which is not whole, was dropped";
   }
 
   /// \param run what tells this run from others \param most_age, entries_a_tick as of the Edit_journal

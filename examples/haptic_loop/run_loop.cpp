@@ -240,6 +240,8 @@ private:
       result_.largest_free_force = std::fmax(result_.largest_free_force, force);
     if (made.is_new_fault)
       result_.faults.emplace_back(time, name_of(made.fault));
+    if (made.is_new_fault && made.fault == Loop_fault::error)
+      writer_.note("the fault `error` at " + examples::decimal(time) + " s: " + loop.failure());
     if (trace_.get() != nullptr)
       write_row(trace_.get(), reading, made, time, cpu_taken);
     return !loop.has_stopped();
@@ -277,9 +279,9 @@ private:
     log_->finish();
     const std::string lacking = "the log '" + plan_.log + "' lacks the last edits of this run" +
                                 (plan_.out.empty() ? "" : ", which '" + plan_.out + "' has");
-    if (log_->has_overrun()) // which is a fault
+    if (log_->has_overrun() && !result_.faults.empty()) // which is one
       writer_.note(lacking);
-    else if (log_->unwritten() > 0) // the run has ended before that
+    else if (log_->has_overrun() || log_->unwritten() > 0) // the run has ended before that
       writer_.fail(lacking);
     writer_.write(plan_.out, [&](const std::string& path) {
       Write_parameters parameters;

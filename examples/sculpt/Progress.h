@@ -27,7 +27,12 @@ public:
   explicit Progress(std::string what, std::size_t total = 0)
       : what_(std::move(what)), total_(total), is_in_one_line_(total > 0 && ::isatty(STDERR_FILENO) == 1) {
     try {
-      thread_ = std::thread([this] { wait(); });
+      thread_ = std::thread([this] {
+        try {
+          wait();
+        } catch (const std::exception&) { // no memory: what goes on does without being told
+        }
+      });
     } catch (const std::system_error&) { // no more threads: what goes on does without being told
     }
   }

@@ -65,7 +65,7 @@ private:
   Run_result result_;
   std::set<std::size_t> moved_;
 
-  /// For what is said of all vertices after a line that lacked memory; a line fails for want of it here, undone.
+  /// For what is said of all vertices after a line that lacked memory.
   void make_room() {
     const std::size_t n = sculptor_.number_of_ids();
     if (n <= result_.numbers.capacity())

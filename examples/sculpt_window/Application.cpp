@@ -257,7 +257,8 @@ void Application::take_reports() {
                  opens_for_script_);
   };
   try {
-    const bool is_at_work = button_ == 0 || status_.hold != Hold::nothing || !thread_.has_done_all();
+    const bool is_at_work = button_ == 0 || status_.hold != Hold::nothing || !thread_.has_done_all() ||
+                            !to_save_.empty() || background_.is_saving();
     if (auto opened = is_at_work ? std::nullopt : background_.take_opened()) { // else edits are yet to be counted
       const std::string path = opened->path;
       if (is_unsaved() && edits() != edits_when_opening_) {
@@ -295,7 +296,7 @@ void Application::take_saved() {
         continue; // another was opened meanwhile
       kept_.back().is_saved = true, kept_.back().saved_edits = saved->edits;
       if (saved->quits) // where there is work since, it is asked once more
-        note("close"), is_leaving_ = true;
+        note("close"), is_leaving_ = true, to_open_.clear();
     } catch (const Error& error) {
       fail_to_write(examples::message_of(error));
     } catch (const std::exception&) {

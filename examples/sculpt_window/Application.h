@@ -87,6 +87,7 @@ public:
   /// Ends as soon as it can, without asking; a log keeps what is not saved.
   void end() {
     is_done_ = true;
+    unopened_.clear();   // the script is not over
     thread_.break_off(); // what is yet to be saved is saved as it is then
   }
 
@@ -122,6 +123,7 @@ private:
   std::vector<examples::Named_file> unopened_;      ///< by a script, what was refused for that, and not opened since
   bool opens_for_script_ = false;                   ///< what is being opened
   std::uint64_t edits_when_opening_ = 0;            ///< of the mesh that is shown till then
+  bool is_log_new_ = false;                         ///< of what is being opened
   bool has_failed_to_open_ = false;
 
   Eigen::Vector2d mouse_ = Eigen::Vector2d::Zero();

@@ -299,6 +299,8 @@ void Application::open(const std::string& path, bool for_script) {
     unopened_.erase(unopened_.begin() + (before - unopened_.data()));
   say("opening " + path);
   opening_ = names;
+  std::error_code unknown;
+  is_log_new_ = !log.empty() && !std::filesystem::exists(log, unknown);
   opens_for_script_ = for_script, edits_when_opening_ = edits();
   background_.open(path, log);
 }

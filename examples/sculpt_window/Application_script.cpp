@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdarg>
+#include <filesystem>
 #include <iostream>
 #include <thread>
 
@@ -162,6 +163,8 @@ bool Application::act(const Action& action) {
     save(action.word);
     return true;
   case Kind::open:
+    if (button_ == 0) // what is opened waits for the release, and the script for that
+      on_release(0);
     if (!is_at_rest())
       return false;
     open(action.word, true);
@@ -334,7 +337,12 @@ int Application::finish() {
   }
   const int code = has_failed_to_open_ ? 3 : has_failed_to_write_ ? 5 : 0;
   leave_unseen();
-  if (background_.is_opening()) { // reading may take minutes, and has written at most the head of a log
+  std::error_code unknown;
+  while (background_.is_opening() && is_log_new_ && std::filesystem::exists(opening_.back().path, unknown)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1)); // the log comes last, and goes with its mesh
+    leave_unseen();
+  }
+  if (background_.is_opening()) { // reading a mesh and a log may take minutes, and has written nothing
     const bool is_said = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     std::_Exit(code == 0 && !is_said ? 5 : code);
   }

@@ -104,7 +104,9 @@ expect(examples and all(answer.get("ok") is True and "unknown_keys" not in answe
 run = subprocess.run([program, "--hlep"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 expect(run.returncode == 2 and not run.stdout and b"--hlep" in run.stderr, "a wrong argument", run)
 with open("/dev/full", "wb") as full:
-    expect(subprocess.run([program], input=good_line.encode(), stdout=full).returncode == 5, "answers that cannot be written")
+    for arguments in [], ["--help"]:
+        run = subprocess.run([program, *arguments], input=good_line.encode(), stdout=full, stderr=subprocess.PIPE)
+        expect(run.returncode == 5 and b"standard output" in run.stderr, "answers that cannot be written", run)
 folder = os.open("/", os.O_RDONLY)
 expect(subprocess.run([program], stdin=folder, stderr=subprocess.PIPE).returncode == 2, "requests that cannot be read")
 os.close(folder)

@@ -263,7 +263,11 @@ for _ in range(10 * program_runs.PATIENCE):
         break
     time.sleep(0.1)
 endless.send_signal(signal.SIGINT)
-words = endless.communicate(timeout=program_runs.PATIENCE)[1]
+try:
+    words = endless.communicate(timeout=program_runs.PATIENCE)[1]
+except subprocess.TimeoutExpired:
+    endless.kill()
+    words = endless.communicate()[1] + "it goes on"
 check(endless.returncode == 0 and os.path.exists(at("endless.off")), f"10^24 s: exit {endless.returncode}: {words}")
 done = run(MESH, "--real-time", "--seconds", 0.3)
 check("haptic_loop: " in done.stderr or os.geteuid() == 0, f"real time, or why not: {done.stderr}")

@@ -194,7 +194,7 @@ check(not missing, f"the logs have no line {missing}: {made}")
 window(cube, "--no-log", "--samples", 0, "--size", 300, 225, "--screenshot", at("end.png"), script="quit\n",
        what="a picture at the end")
 check(os.path.exists(at("end.png")), "the picture at the end is written, though the script quits")
-for name, script in (("closed", "settle\nclose\nmove 1 1\n"), ("held", "brush inflate 0.2\nmove @0,-1,0\npress left\n")):
+for name, script in (("opened", f"tool drag\nmove @0,-1,0\npress left\nopen {cube}\nrelease\n"), ("closed", "settle\nclose\nmove 1 1\n"), ("held", "brush inflate 0.2\nmove @0,-1,0\npress left\n")):
     window(BALL, "--no-log", "--samples", 0, "--size", 300, 225, "--screenshot", at(f"{name}.png"), script=script,
            what=f"a picture at the end, {name}")
     check(os.path.exists(at(f"{name}.png")), f"the picture at the end is written, {name}")
@@ -202,7 +202,7 @@ for direction in ("1.7e308 1.7e308 0", "5e-324 5e-324 5e-324"):
     view = " ".join(str(float(x) > 0 and 1 or 0) for x in direction.split())
     for name, way in (("far", direction), ("near", view)):
         window(BALL, "--no-log", "--samples", 0, "--size", 300, 225, "--screenshot", at(f"{name}.png"),
-               script=f"view {way}\nquit\n", what=f"view {way}")
+               script=f"key tab\nview {way}\nquit\n", what=f"view {way}")
     check(read_png(at("far.png"))[1] == read_png(at("near.png"))[1], f"view {direction} is view {view}")
 
 # A removal is logged as the collapse that it was, whatever a probe near by has barred.

@@ -255,31 +255,16 @@ time.sleep(0.3)
 check(process.poll() is None, "a save that is refused quits")
 
 # What is done while another mesh is read is not left by it, though that was dropped twice.
-late = at("late.off")
-os.mkfifo(late)
-for _ in range(2):
-    check(hand.drop(identity, late), "a dropped file is taken")
-    time.sleep(0.3)
-dragged(second, above)
-writer = []
-
-
-def is_being_read():
-    try:
-        writer.append(os.open(late, os.O_WRONLY | os.O_NONBLOCK))
-    except OSError:  # nobody reads it yet
-        pass
-    return bool(writer)
-
-
-eventually(is_being_read, "a file that is dropped twice is read")
-for end in writer:
-    os.set_blocking(end, True)
-    os.write(end, bytes_of(other))
-    os.close(end)
-time.sleep(1)
+late = write(at("late.off"), box(150))
+check(hand.drop(identity, late), "a dropped file is taken")
+eventually(lambda: lines_of(record).count(f"open {late}") == 1, "a file that is dropped once over unsaved work is refused")
+check(hand.drop(identity, late), "a dropped file is taken")
+time.sleep(0.5)
+dragged(vertex, goal)  # while the button is down another mesh does not come
+eventually(lambda: lines_of(record).count(f"open {late}") == 2, "it is refused once more", PATIENCE)
 check(title() == f"sculpt_window {saved} (not saved)", f"a mesh that was long in coming is opened over work since: {title()}")
 hand.move(*vertex)
+plain = still(MIDDLE)
 hand.key("s")
 eventually(lambda: seen(MIDDLE) != plain, "s asks for a name again")
 time.sleep(0.3)  # the field takes the keys with the next frame

@@ -17,17 +17,17 @@ public:
   /// \param start a pose near the first reading \param limits made for this device, map, tick, delay, damping and
   /// fading (passivity_limits) \throw Unstable_coupling if they do not permit the coupling, the virtual mass or the
   /// passivity controller; Error for parameters that cannot be used, and for limits that were made for others
-  Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device,
-              const Device_pose<double>& start, const Workspace_map& map, const Haptic_parameters& parameters,
-              const Passivity_limits& limits)
+  Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device, const Device_pose<double>& start,
+              const Workspace_map& map, const Haptic_parameters& parameters, const Passivity_limits& limits,
+              const internal::Rounding_to_nearest& /*rounding*/ = internal::Rounding_to_nearest())
       : Base(sculptor, Joint_side(device, start, parameters), map, parameters, limits.default_controller()) {
     check_limits(limits, device, map, parameters);
   }
   /// Makes the limits by itself, for the box of the mesh as it is and a tenth beyond. Some tenths of a second.
-  Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device,
-              const Device_pose<double>& start, const Workspace_map& map, const Haptic_parameters& parameters)
-      : Haptic_loop(sculptor, device, start, map, parameters,
-                    limits_of(sculptor, device, map, parameters)) {}
+  Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device, const Device_pose<double>& start,
+              const Workspace_map& map, const Haptic_parameters& parameters,
+              const internal::Rounding_to_nearest& /*rounding*/ = internal::Rounding_to_nearest())
+      : Haptic_loop(sculptor, device, start, map, parameters, limits_of(sculptor, device, map, parameters)) {}
 
   const Handle_motion& handle() const { return this->interaction().side().handle(); } ///< in the last tick
 

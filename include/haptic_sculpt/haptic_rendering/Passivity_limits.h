@@ -4,6 +4,7 @@
 #include <haptic_sculpt/device/dynamics.h>
 #include <haptic_sculpt/device/forward_by_all_modes.h>
 #include <haptic_sculpt/device/simulation/Torque_delay.h>
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/haptic_rendering/Force_limit.h>
 #include <haptic_sculpt/haptic_rendering/Acceleration_estimate.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
@@ -192,6 +193,7 @@ struct Passivity_limits {
   /// with the Jacobian, friction and encoders of this one.
   bool are_for(const Device_parameters<double>& device, const Force_limits& forces, const Workspace_map& place,
                double b, double seconds, double ticks, double hertz) const {
+    const internal::Rounding_to_nearest rounding; // in which they were made
     if (!map || !(*map == place) || full_condition != forces.full_condition || no_condition != forces.no_condition ||
         damping != b || tick != seconds || delay != ticks || cutoff != hertz || worst.friction(device) != friction ||
         haptic_sculpt::passive_stiffness(friction, b, seconds, ticks) != passive_stiffness ||
@@ -223,6 +225,7 @@ inline Passivity_limits passivity_limits(const Device_parameters<double>& parame
                                          const Workspace_map& map, const Worst_pose& worst,
                                          const Worst_pose& lightest, double damping, double tick, double delay,
                                          double cutoff = Acceleration_estimate::default_cutoff) {
+  const internal::Rounding_to_nearest rounding;
   internal::check_asked_of_limits(limits, damping, tick, delay, cutoff);
   Passivity_limits found;
   found.worst = worst;
@@ -248,6 +251,7 @@ inline Passivity_limits passivity_limits(const Device_parameters<double>& parame
                                          const Workspace_map& map, const Eigen::Vector3d& lower,
                                          const Eigen::Vector3d& upper, double damping, double tick, double delay,
                                          double cutoff = Acceleration_estimate::default_cutoff) {
+  const internal::Rounding_to_nearest rounding;
   if (!lower.allFinite() || !upper.allFinite() || (lower.array() > upper.array()).any())
     throw Error("the box of passivity_limits() must be of finite numbers, none of its lower corner above that of its "
                 "upper one");

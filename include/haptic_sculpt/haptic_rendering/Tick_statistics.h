@@ -25,11 +25,11 @@ public:
   /// The least bound, ns, that a share of the durations keep: 0.5 the median, 0.999 all but one in a thousand. 0 where
   /// there are none.
   std::uint64_t percentile(double share) const {
-    const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(number_)));
+    const double wanted = std::ceil(share * static_cast<double>(number_));
     std::uint64_t seen = 0;
     for (std::size_t i = 0; i < counts_.size() && number_ > 0; ++i) {
       seen += counts_[i];
-      if (seen >= wanted && seen > 0)
+      if (static_cast<double>(seen) >= wanted && seen > 0)
         return upper_bound(i) < largest_ ? upper_bound(i) : largest_;
     }
     return largest_;

@@ -34,7 +34,8 @@ public:
   static constexpr double offset_time = 0.2;
 
   /// \param reach of a grab, in the device, m \param tick s \throw Error naming what cannot be used
-  Tool(Sculptor& sculptor, const Workspace_map& map, double reach, double tick)
+  Tool(Sculptor& sculptor, const Workspace_map& map, double reach, double tick,
+       const internal::Rounding_to_nearest& /*rounding*/ = internal::Rounding_to_nearest())
       : sculptor_(&sculptor)
       , map_(map)
       , reach_(reach)

@@ -73,15 +73,16 @@ private:
   void write(key_type v, const value_type& p) const {
     const internal::Rounding_to_nearest rounding;
     internal::check_vertex(sculptor_->mesh(), v);
-    ++counts_->puts;
     const internal::Coordinates target = internal::coordinates(p);
     if (!is_in_range(target)) {
+      ++counts_->puts;
       ++counts_->refused;
       ++counts_->out_of_range;
       return;
     }
     const internal::Coordinates source = vertex_coordinates(sculptor_->mesh(), v);
     move(v, source, target);
+    ++counts_->puts; // what throws is counted in nothing
     const internal::Coordinates end = vertex_coordinates(sculptor_->mesh(), v);
     counts_->refused += end != target;
     counts_->asked += internal::path_length(source, target);

@@ -59,7 +59,7 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
   if (range.empty())
     return {};
 
-  const internal::Scaled_points<Mesh> points(sculptor.mesh(), target_edge_length);
+  const internal::Scaled_points<Mesh> points(sculptor.mesh(), target_edge_length, range);
   internal::Remeshing_named_parameters named;
   named.target_edge_length = points.in_unit(target_edge_length);
   named.iterations = choose_parameter(get_parameter(np, names::number_of_iterations), 1u);
@@ -75,8 +75,6 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
   const double infinity = std::numeric_limits<double>::infinity();
   const double distance = parameters.most_distance.value_or(has_functor && projects ? infinity : target_edge_length);
   named.max_distance = distance < infinity ? points.in_unit(distance) : infinity;
-  if (named.do_split)
-    internal::check_number_of_faces(sculptor.mesh(), points, range, named, target_edge_length, parameters);
 
   auto& guarded = internal::Sculptor_access::guarded(sculptor);
   const auto asked = [&guarded](const auto& map) {
@@ -90,8 +88,13 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
   const auto vertex_map = asked(choose_parameter(get_parameter(np, names::vertex_is_constrained), No_vertices()));
   const auto patch_map = asked(choose_parameter(get_parameter(np, names::face_patch), internal::No_face_patches()));
   using Marks = internal::Remeshing_marks<Mesh, std::decay_t<decltype(edge_map)>, std::decay_t<decltype(patch_map)>>;
-  const auto stroke = sculptor.stroke();
   Marks marks(sculptor.mesh(), range, edge_map, vertex_map, patch_map);
+  if (named.do_split)
+    internal::check_number_of_faces(
+        sculptor.mesh(), points, range, named, target_edge_length, parameters, [&](typename Mesh::Edge_index e) {
+          return marks.is_inside(e) && !(named.protect_constraints && marks.is_constrained(e));
+        });
+  const auto stroke = sculptor.stroke();
   if (parameters.feature_angle_degrees < 180)
     marks.constrain_features(points, parameters.feature_angle_degrees);
   marks.connect_patches();

@@ -168,11 +168,11 @@ Mesh read_surface(const std::filesystem::path& path, double delta = 0, std::vect
                 "read_surface<Mesh>: Mesh must be a CGAL::Surface_mesh whose points have double coordinates, e.g. "
                 "CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>");
   Face_soup soup = read_face_soup(path);
-  if (left_out != nullptr)
-    *left_out = std::move(soup.left_out);
   Validity_report report = validate_soup(soup, delta);
   if (!report.is_valid())
     throw Invalid_surface(internal::quoted_path(path), std::move(report));
+  if (left_out != nullptr)
+    *left_out = std::move(soup.left_out);
   if (found != nullptr)
     *found = std::move(report);
   if constexpr (internal::Is_mesh_of_doubles<Mesh>::value) // else one message is enough

@@ -8,6 +8,7 @@
 #include <haptic_sculpt/surface/repair/copy_attributes.h>
 #include <haptic_sculpt/surface/repair/Repairer.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -73,7 +74,7 @@ inline Repair_report repair(Face_soup& soup, const Repair_parameters& parameters
 }
 
 /// The same of a mesh, in place. Where it was changed it is a new mesh: indices, properties and handles to them are not
-/// those it had.
+/// those it had; where only components were turned, it is the same mesh.
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \throw Error also if its half-edges contradict each other. Points are numbered without removed vertices
 template <class Mesh>
@@ -95,7 +96,12 @@ Repair_report repair(Mesh& mesh, const Repair_parameters& parameters = {}) {
   if (const std::size_t seams = report.is_repaired() ? internal::open_seams(mesh).size() : 0; seams != 0)
     report.steps.insert(report.steps.begin(),
                         {Repair_kind::stitch_edges, {{"pairs of open edges stitched", seams / 2}}, 0, {}});
-  if (report.is_repaired() && !report.steps.empty())
+  const auto turns = [](const Repair_step& step) { return step.kind == Repair_kind::orient_solids; };
+  if (!report.is_repaired() || report.steps.empty())
+    return report;
+  if (std::all_of(report.steps.begin(), report.steps.end(), turns))
+    orient_components(mesh);
+  else
     mesh = mesh_of<Mesh>(result);
   return report;
 }

@@ -27,7 +27,7 @@ class Hand_path {
 public:
   /// m and s: whoever writes more means another unit.
   static constexpr double largest_number = 1e9;
-  /// s, between two rows: velocities stay finite.
+  /// s, between two rows, as they are written: velocities stay finite.
   static constexpr double least_time = 1e-9;
 
   /// A place, and when.
@@ -110,7 +110,7 @@ inline Hand_path Hand_path::parse(std::string_view text, const std::string& name
     }
     if (values[4] != 0 && values[4] != 1 && values[4] != 2)
       fail(number, line.rfind(',') + 2, "the button must be 0, 1 or 2");
-    if (!rows.empty() && !(values[0] - rows.back().time >= least_time))
+    if (!rows.empty() && !(values[0] - rows.back().time > 0.5 * least_time)) // rounded
       fail(number, 1, "the times must grow from row to row, by a nanosecond at least");
     rows.push_back({values[0], {values[1], values[2], values[3]}, static_cast<int>(values[4])});
   }

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <type_traits>
 
 namespace haptic_sculpt::internal {
@@ -181,7 +182,11 @@ private:
       p[edit.axis] = coordinate(k);
       mesh_->point(v) = to_point(p);
     }
-    broad_phase_->many_faces_moved(faces_, *corners_of_, run);
+    try {
+      broad_phase_->many_faces_moved(faces_, *corners_of_, run);
+    } catch (const std::bad_alloc&) { // of who shares the work: alone it takes no memory
+      broad_phase_->many_faces_moved(faces_, *corners_of_, Part_runner());
+    }
     noted(Vertex_index());
     writing_->end();
     if constexpr (has_visitor)

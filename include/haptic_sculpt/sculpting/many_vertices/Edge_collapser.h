@@ -52,6 +52,7 @@ private:
   State& state_;
   const Mesh& mesh_;
   std::vector<Patch> patches_; ///< of the faces of the star at hand
+  decltype(Star<Mesh>::faces) old_faces_; ///< these, of a collapse
 
   /// Whether the source may go into the target, as far as constraints are concerned: along a constrained edge, or off
   /// none.
@@ -116,6 +117,8 @@ private:
     patches_.clear();
     for (const Face_index f : star.faces)
       patches_.push_back(state_.marks.patch(f));
+    old_faces_ = star.faces;
+    state_.marks.make_room();
     if (!State::counted(static_cast<bool>(state_.sculptor.collapse(h)), state_.report.collapses))
       return {};
     hand_on(target, pivot, line_end, line);
@@ -126,7 +129,6 @@ private:
   void hand_on(Vertex_index target, std::size_t pivot, Vertex_index line_end, const Constraint& line) {
     const Star<Mesh>& star = state_.star;
     const std::size_t n = star.valence();
-    const auto old_faces = star.faces;
     // Around the target, from the one neighbour in the link to the other.
     std::size_t k = star.next(pivot);
     Halfedge_index g = mesh_.halfedge(star.link[k], target);
@@ -143,7 +145,7 @@ private:
       g = mesh_.opposite(mesh_.next(g));
       k = star.next(k);
     }
-    state_.samples.put(mesh_, old_faces, [&](std::size_t i) { return star.faces[i]; });
+    state_.samples.put(mesh_, old_faces_, [&](std::size_t i) { return star.faces[i]; });
   }
 };
 

@@ -34,6 +34,11 @@ public:
   Patch operator()(Face_index f) const { return patch_[static_cast<std::size_t>(f)]; }
   std::size_t size() const { return number_; } ///< how many patches there are
 
+  /// For two new faces.
+  void make_room() {
+    if (patch_.capacity() < mesh_->num_faces() + 2)
+      patch_.reserve(2 * (mesh_->num_faces() + 2));
+  }
   /// f is a new face, of this patch.
   void set(Face_index f, Patch patch) {
     if (static_cast<std::size_t>(f) >= patch_.size())

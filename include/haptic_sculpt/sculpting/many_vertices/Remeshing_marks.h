@@ -104,6 +104,15 @@ public:
     return !is_fixed(v) && is_in_range(mesh_->face(mesh_->halfedge(v)));
   }
 
+  /// Before an edit, so that what it makes is noted without memory: two faces, three edges and a vertex more at most.
+  void make_room() {
+    const auto reserve = [](auto& list, std::size_t size) {
+      if (list.capacity() < size)
+        list.reserve(2 * size);
+    };
+    reserve(constraints_, mesh_->num_edges() + 3), reserve(is_fixed_, mesh_->num_vertices() + 1);
+    patches_.make_room();
+  }
   /// Before e is split.
   Split split_of(Edge_index e) const {
     const Halfedge_index h = mesh_->halfedge(e), g = mesh_->opposite(h);

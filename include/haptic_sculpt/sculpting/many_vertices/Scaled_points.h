@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
+#include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/star.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
@@ -11,17 +12,25 @@ namespace haptic_sculpt::internal {
 /// that long neither overflow nor vanish. No bit of a coordinate changes by it, unless it becomes subnormal.
 ///
 /// The unit is about a given length, or the largest coordinate where that is less: lengths in the unit are then about
-/// one where a remeshing to that length has anything to do, whatever they are outside.
+/// one where a remeshing to that length has anything to do, whatever they are outside. Of a length that is 2^100 times
+/// shorter than an edge, by which nothing can be divided or collapsed, it is about that edge.
 template <class Mesh>
 class Scaled_points {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
   using Edge_index = typename Mesh::Edge_index;
+  using Face_index = typename Mesh::Face_index;
   using Point = typename Mesh::Point;
 
-  /// \pre length > 0, and the mesh has a vertex
-  Scaled_points(const Mesh& mesh, double length) : mesh_(&mesh) {
+  /// \param range of faces to be remeshed \pre length > 0, and the mesh has a vertex
+  Scaled_points(const Mesh& mesh, double length, const std::vector<Face_index>& range) : mesh_(&mesh) {
     double largest = 0;
+    for (const Face_index f : range) {
+      const auto corners = corners_of_face(mesh, f);
+      for (int k = 0; k < 3; ++k)
+        length = larger(length, 0x1p-100 * quick_magnitude(minus(vertex_coordinates(mesh, corners[k]),
+                                                                 vertex_coordinates(mesh, corners[(k + 1) % 3]))));
+    }
     for (const Vertex_index v : mesh.vertices())
       largest = larger(largest, quick_magnitude(vertex_coordinates(mesh, v)));
     const int exponent = std::ilogb(largest > 0 ? smaller(largest, length) : length);

@@ -125,9 +125,10 @@ private:
   }
 
   double sum_left() const {
+    const double unit = report_->asked_max > 0x1p900 ? 0x1p-64 : 1; // no sum overflows then
     double sum = 0;
     for (Position k = 0; k < vertices_.size(); ++k)
-      sum += distance_left(k);
+      sum += unit * distance_left(k);
     return sum;
   }
 

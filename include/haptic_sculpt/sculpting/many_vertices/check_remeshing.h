@@ -5,6 +5,8 @@
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_state.h>
 #include <haptic_sculpt/sculpting/named_parameters.h>
 
+#include <limits>
+
 namespace haptic_sculpt::internal {
 
 /// Refuses what CGAL documents for its isotropic_remeshing(), and ours does not serve.
@@ -28,29 +30,37 @@ inline void check_remeshing(double target_edge_length, const Remeshing_parameter
   const double angle = parameters.feature_angle_degrees;
   if (!(angle >= 0 && angle <= 180))
     throw Invalid_parameter("the feature angle must be from 0 to 180 degrees, not " + number(angle));
-  if (const double distance = parameters.most_distance.value_or(0); !(distance >= 0))
+  const double distance = parameters.most_distance.value_or(0);
+  if (!(distance >= 0))
     throw Invalid_parameter("the distance to the input must be >= 0, not " + number(distance));
+  if (distance < std::numeric_limits<double>::infinity())
+    check_range("the distance to the input", distance);
 }
 
 /// Refuses a length for which splits alone would make more faces than wanted, where nothing is in the way of a split.
 ///
 /// An edge of length l becomes at least l / (4/3 L) edges, and a closed surface has two thirds as many faces as edges.
 /// No triangle with edges of at most 4/3 L has a larger area than the equilateral one.
-/// \throw Invalid_parameter
-template <class Mesh>
+/// \param may_split of an edge of the faces; the others stay as they are \throw Invalid_parameter
+template <class Mesh, class May_split>
 void check_number_of_faces(const Mesh& mesh, const Scaled_points<Mesh>& points,
                            const std::vector<typename Mesh::Face_index>& faces, const Remeshing_named_parameters& named,
-                           double target_edge_length, const Remeshing_parameters& parameters) {
+                           double target_edge_length, const Remeshing_parameters& parameters,
+                           const May_split& may_split) {
   const double longest = named.target_edge_length * 4 / 3;
   const double largest_area = std::sqrt(3.0) / 4 * longest * longest;
   double area = 0, more_edges = 0;
   for (const auto f : faces) {
+    bool may_split_all = true;
+    for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+      const double more = larger(0, length(minus(points(mesh.target(h)), points(mesh.source(h)))) / longest - 1);
+      const bool may = may_split(mesh.edge(h));
+      may_split_all = may_split_all && (may || more == 0);
+      more_edges += may ? more / 2 : 0; // each edge is counted at both of its faces
+    }
     const auto corners = corners_of_face(mesh, f);
-    const Vector a = points(corners[0]), b = points(corners[1]), c = points(corners[2]);
-    area += length(area_normal(a, b, c)) / 2;
-    // Each edge is counted at both of its faces.
-    for (const Vector& side : {minus(b, a), minus(c, b), minus(a, c)})
-      more_edges += larger(0, length(side) / longest - 1) / 2;
+    if (may_split_all)
+      area += length(area_normal(points(corners[0]), points(corners[1]), points(corners[2]))) / 2;
   }
   const double now = static_cast<double>(faces.size()), others = static_cast<double>(mesh.number_of_faces()) - now,
                least = others + larger(area / largest_area, now + more_edges * 2 / 3),

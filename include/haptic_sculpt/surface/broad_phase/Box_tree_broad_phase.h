@@ -100,6 +100,10 @@ public:
     if (size > slot_of_face_.capacity())
       slot_of_face_.reserve(size + size / 16); // not doubled: memory is promised
     slot_of_face_.resize(std::max(size, slot_of_face_.size()), no_slot);
+    const struct Refit { // what has been set by then, where memory runs out in the overflow
+      decltype(tree_)& tree;
+      ~Refit() { tree.refit(); }
+    } refit{tree_};
     for (const Face_index f : faces) {
       const internal::Float_box box = scale().around(face_box(mesh(), f));
       std::uint32_t& slot = slot_of_face_[f];
@@ -113,7 +117,6 @@ public:
         tree_.item(slot) = static_cast<std::uint32_t>(f);
       set(slot, box);
     }
-    tree_.refit();
   }
 
   /// Frees their slots; reads no mesh, and passes over faces that are not known.

@@ -68,9 +68,15 @@ struct Face_soup {
   /// Appends a face with these corners. \pre the one before is closed
   template <class Range>
   void add_face(const Range& indices) {
-    for (const auto index : indices)
-      corners.push_back(static_cast<Index>(index));
-    close_face();
+    const std::size_t before = corners.size();
+    try {
+      for (const auto index : indices)
+        corners.push_back(static_cast<Index>(index));
+      close_face();
+    } catch (...) { // else what was taken of it would be of the next face
+      corners.resize(before);
+      throw;
+    }
   }
 
   /// Whether all coordinates of a point are finite. \pre point < points.size()
