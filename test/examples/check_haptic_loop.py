@@ -202,6 +202,10 @@ done = run(MESH, "--no-wait", "--seconds", last + 0.02, "--log", at("short.log")
 lost = json.load(open(at("short.json")))["log"]["lost"]
 check("short.log' lacks the last edits" in done.stderr and lost > 0, f"it is said: {done.stderr}")
 check(" done # " not in open(at("short.log")).read(), "a log that lacks edits says that it is whole")
+# Noticed in the last tick, or behind it: a log that lacks edits is never a run without a fault.
+done = program_runs.run(MESH, "--seconds", 4.8, "--log", at("last.log"), "--fault", "log@4.7", "--report", at("last.json"),
+                        program=LOOP)
+check(done.returncode in (5, 8) and "lacks the last edits" in done.stderr, f"exit {done.returncode}: {done.stderr}")
 # A vertex that was created beside one that was created is of that part, too: pushed into another one, it is said.
 corners = [(-2, -2, 0), (2, -2, 0), (0, 2, 0), (0, 0, -2), (-3, -3, 1), (3, -3, 1), (0, 3, 1), (0, 0, 3)]
 with open(at("two.off"), "w") as file:

@@ -8,6 +8,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <array>
+#include <memory>
 #include <random>
 #include <set>
 #include <string>
@@ -171,6 +173,24 @@ BOOST_AUTO_TEST_CASE(a_zoom_is_the_same_in_all_modes_of_a_caller) {
     scales.insert(b.loop.map().scale());
   }
   BOOST_TEST(scales.size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(a_loop_is_the_same_in_whatever_mode_of_a_caller_it_was_made) {
+  std::set<std::array<double, 3>> places;
+  for (const int rounding : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::unique_ptr<Clutch_bench> b;
+    {
+      const haptic_sculpt::test::Callers_mode mode(rounding, true);
+      b = std::make_unique<Clutch_bench>();
+    }
+    b->handle = map_of_tests.to_device(Vector3d(0.5, 0.4, 1.2)); // which rounds as the caller does
+    b->press_on();
+    for (int k = 0; k < 300; ++k)
+      b->go(Vector3d(0.00002, 0.00003, k < 100 ? 0 : 0.00006)); // along the face, then off it
+    const Vector3d& proxy = b->loop.tick(Pose_reading{b->handle, 0, 0.001}).tool.proxy;
+    places.insert({proxy[0], proxy[1], proxy[2]});
+  }
+  BOOST_TEST(places.size() == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(a_button_that_bounces_is_pressed_once_and_at_once) {

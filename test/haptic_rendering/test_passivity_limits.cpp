@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stiffness up to which a held spring gives no energy: at the worst pose, found by prescribed motions, in runs.
 #include "haptic_rendering/devices_of_tests.h"
+#include "sculpting/public_functions/Callers_mode.h"
 
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
@@ -159,6 +160,11 @@ BOOST_AUTO_TEST_CASE(limits_that_were_made_for_something_else_or_by_nobody_are_r
                    lightest = lightest_pose(parameters, asked.limits, is_inside, 7);
   const Passivity_limits made = passivity_limits(parameters, asked.limits, map, worst, lightest, 0, 0.001, 0);
   check_limits(made, parameters, map, asked);
+  for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) { // of a caller: it is the same loop
+    const haptic_sculpt::test::Callers_mode mode(rounding, true);
+    check_limits(made, parameters, map, asked);
+    check_limits(passivity_limits(parameters, asked.limits, map, worst, lightest, 0, 0.001, 0), parameters, map, asked);
+  }
   const auto is_refused = [](const Passivity_limits& limits, const Device_parameters<double>& device,
                              const Workspace_map& place, const Haptic_parameters& wanted) {
     BOOST_CHECK_EXCEPTION(check_limits(limits, device, place, wanted), Error, [](const Error& error) {

@@ -39,6 +39,9 @@ BOOST_AUTO_TEST_CASE(of_no_ticks_all_numbers_are_0_and_of_a_few_they_are_theirs)
   Tick_statistics statistics;
   BOOST_TEST((statistics.number() == 0u && statistics.largest() == 0u && statistics.percentile(0.5) == 0u));
   statistics.add(7), statistics.add(9), statistics.add(8);
+  for (const double share : {-1e300, -0.5, 0.0})
+    BOOST_TEST(statistics.percentile(share) == 7u);
+  BOOST_TEST(statistics.percentile(1e300) == 9u);
   BOOST_TEST((statistics.number() == 3u && statistics.largest() == 9u && statistics.percentile(0.5) == 8u));
 }
 

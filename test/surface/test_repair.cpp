@@ -12,6 +12,8 @@
 
 #include <shared_data.h>
 
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <gmpxx.h>
@@ -225,6 +227,13 @@ BOOST_AUTO_TEST_CASE(meshes_are_repaired_in_place) {
   mesh = meshes::to_mesh(meshes::icosphere(2));
   mesh.remove_vertex(mesh.add_vertex(Point_3(std::numeric_limits<double>::infinity(), 0, 0)));
   BOOST_TEST(repair(mesh).steps.empty());
+  // What is only inside out is turned, and stays the mesh that it is.
+  mesh = meshes::to_mesh(meshes::cube());
+  CGAL::Polygon_mesh_processing::reverse_face_orientations(mesh);
+  mesh.add_property_map<Mesh::Vertex_index, int>("v:mine", 7);
+  BOOST_TEST(count_of(repair(mesh), Repair_kind::orient_solids, "components turned") == 1u);
+  BOOST_TEST(validate(mesh).inside_out_components.empty());
+  BOOST_TEST((mesh.property_map<Mesh::Vertex_index, int>("v:mine").second));
   // Not in place, for it cannot be repaired.
   Mesh open = meshes::to_mesh(meshes::ball_with_a_hole());
   const Mesh before = open;

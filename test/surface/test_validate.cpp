@@ -82,6 +82,26 @@ BOOST_AUTO_TEST_CASE(a_list_of_faces_that_was_moved_from_can_be_filled_again) {
   BOOST_TEST(validate_soup(soup).is_valid());
 }
 
+// Corners that end before their face has been closed are of no face.
+BOOST_AUTO_TEST_CASE(a_face_that_cannot_be_added_is_not_part_of_the_next) {
+  struct Ends {};
+  struct Corners {
+    struct Iterator {
+      int at;
+      int operator*() const { return at < 2 ? at : throw Ends(); }
+      Iterator& operator++() { return ++at, *this; }
+      bool operator!=(const Iterator& other) const { return at != other.at; }
+    };
+    Iterator begin() const { return {0}; }
+    Iterator end() const { return {3}; }
+  };
+  Face_soup soup;
+  BOOST_CHECK_THROW(soup.add_face(Corners()), Ends);
+  soup.add_face(std::array<int, 3>{0, 1, 2});
+  BOOST_TEST(soup.number_of_faces() == 1u);
+  BOOST_TEST(soup.number_of_corners(0) == 3u);
+}
+
 BOOST_AUTO_TEST_CASE(an_empty_mesh_and_isolated_vertices) {
   BOOST_TEST(validate(Mesh()).is_valid());
   Mesh mesh = to_mesh(meshes::tetrahedron());

@@ -44,6 +44,7 @@ BOOST_AUTO_TEST_CASE(paths_are_read_or_refused_by_line_and_column) {
   refused("t,x,y,z,button\n0,0,0,0,0,0\n", "line 2, column 10");
   refused("t,x,y,z,button\n0,0,0,0,3\n", "line 2");
   refused("t,x,y,z,button\n0,0,0,0,0\n0,0,0,0,0\n", "line 3");
+  Hand_path::parse("t,x,y,z,button\n0.478130166,0,0,0,0\n0.478130167,0,0,0,0\n", "p"); // rounded, 9.999999717e-10 s
 }
 
 BOOST_AUTO_TEST_CASE(what_is_read_gives_finite_places_and_velocities) {

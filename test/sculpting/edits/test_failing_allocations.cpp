@@ -6,6 +6,7 @@
 #include "sculpting/edits/failing_allocations.h"
 
 #include <haptic_sculpt/haptic_rendering/exchange/Scene_visitor.h>
+#include <haptic_sculpt/sculpting/isotropic_remeshing.h>
 #include <haptic_sculpt/sculpting/move_rigidly.h>
 #include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 
@@ -289,6 +290,56 @@ BOOST_AUTO_TEST_CASE(an_object_is_where_it_was_or_has_arrived) {
       BOOST_TEST(move_rigidly(sculptor, all, translation).share == 1); // it works on
       BOOST_TEST(validate(mesh).is_valid());
     }
+  }
+  BOOST_TEST(tries > 40u);
+}
+
+// Constraints are handed on with each operation that stands: the edges of a cube that are constrained are those of its
+// twelve sides, whole, whatever was split or drawn together by then.
+BOOST_AUTO_TEST_CASE(constrained_edges_stay_constrained_where_a_remeshing_ends) {
+  std::size_t tries = 0;
+  bool has_failed = true;
+  for (std::size_t n = 1; has_failed; n += 1 + n / 16) {
+    Mesh mesh = meshes::to_mesh(meshes::box(2));
+    auto is_constrained = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_constrained", false).first;
+    auto patch = mesh.add_property_map<Mesh::Face_index, int>("f:patch", -1).first;
+    const auto side_of = [&](Mesh::Face_index f) { // by its normal, of length 1 along an axis
+      const auto h = mesh.halfedge(f);
+      const auto n =
+          CGAL::normal(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h))));
+      for (int k = 0; k < 3; ++k)
+        if (n[k] != 0)
+          return 2 * k + (n[k] > 0);
+      return -1;
+    };
+    for (const auto f : mesh.faces())
+      patch[f] = side_of(f);
+    const auto length_of_constrained = [&] {
+      double sum = 0;
+      for (const auto e : mesh.edges()) {
+        const auto h = mesh.halfedge(e);
+        if (is_constrained[e])
+          sum += std::sqrt(CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))));
+      }
+      return sum;
+    };
+    for (const auto e : mesh.edges())
+      is_constrained[e] = patch[mesh.face(mesh.halfedge(e))] != patch[mesh.face(mesh.opposite(mesh.halfedge(e)))];
+    const double before = length_of_constrained();
+    Sculptor<Mesh> sculptor(mesh);
+    has_failed = false;
+    try {
+      const Failing_allocations failing(n, true);
+      isotropic_remeshing(
+          sculptor, 0.3,
+          CGAL::parameters::edge_is_constrained_map(is_constrained).face_patch_map(patch).number_of_iterations(2));
+    } catch (const std::bad_alloc&) {
+      has_failed = true;
+    }
+    tries += has_failed;
+    BOOST_TEST(std::fabs(length_of_constrained() - before) < 1e-12);
+    for (const auto f : mesh.faces())
+      BOOST_TEST(patch[f] == side_of(f));
   }
   BOOST_TEST(tries > 40u);
 }

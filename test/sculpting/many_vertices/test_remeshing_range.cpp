@@ -166,15 +166,35 @@ BOOST_AUTO_TEST_CASE(a_number_of_faces_bounds_the_work) {
                     Invalid_parameter);
 }
 
-// In the unit of such a length the squares of edges overflow.
+// In the unit of such a length the squares of edges would overflow. Nothing is as short: it does not matter how short.
 BOOST_AUTO_TEST_CASE(a_length_that_nothing_is_divided_by_may_be_any) {
-  for (const double length : {1e-60, 1e-100, 1e-120, 1e-300, 1e60, 1e300}) {
+  const auto remeshed = [](double length) {
     Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2));
     Sculptor<Mesh> sculptor(mesh);
-    isotropic_remeshing(sculptor, length,
-                        CGAL::parameters::do_split(false).do_collapse(false).number_of_iterations(2));
+    const Remeshing_report report =
+        isotropic_remeshing(sculptor, length, CGAL::parameters::do_split(false).number_of_iterations(2),
+                            Remeshing_parameters().max_distance(0.01).feature_angle(60));
     BOOST_TEST(validate(mesh).is_valid());
-  }
+    BOOST_TEST(report.moves.done > 0u);
+    return snapshot(sculptor);
+  };
+  const Mesh_snapshot usual = remeshed(1e-5);
+  for (const double length : {1e-60, 1e-100, 1e-120, 1e-300})
+    BOOST_TEST((remeshed(length) == usual));
+}
+
+// What borders on others is not split, and counts for nothing.
+BOOST_AUTO_TEST_CASE(a_length_too_short_is_refused_for_edges_that_may_be_split) {
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+  Sculptor<Mesh> sculptor(mesh);
+  const std::vector<Face_index> one{*mesh.faces().begin()}, all(mesh.faces().begin(), mesh.faces().end());
+  const auto few = Remeshing_parameters().most_faces(100);
+  BOOST_TEST(isotropic_remeshing(one, sculptor, 1e-6, CGAL::parameters::default_values(), few).splits.done == 0u);
+  BOOST_CHECK_THROW(isotropic_remeshing(all, sculptor, 1e-6, CGAL::parameters::default_values(), few),
+                    Invalid_parameter);
+  BOOST_CHECK_THROW(
+      isotropic_remeshing(sculptor, 1, CGAL::parameters::default_values(), Remeshing_parameters().max_distance(1e305)),
+      Out_of_range);
 }
 
 BOOST_AUTO_TEST_CASE(a_face_given_twice_counts_once) {
