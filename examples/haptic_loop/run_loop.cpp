@@ -240,8 +240,6 @@ private:
       result_.largest_free_force = std::fmax(result_.largest_free_force, force);
     if (made.is_new_fault)
       result_.faults.emplace_back(time, name_of(made.fault));
-    if (made.is_new_fault && made.fault == Loop_fault::error)
-      writer_.note("the fault `error` at " + examples::decimal(time) + " s: " + loop.failure());
     if (trace_.get() != nullptr)
       write_row(trace_.get(), reading, made, time, cpu_taken);
     return !loop.has_stopped();
@@ -276,6 +274,8 @@ private:
                    map.home()[0],
                    map.home()[1],
                    map.home()[2]};
+    if (*loop.failure() != '\0')
+      writer_.note(std::string("the fault `error`: ") + loop.failure());
     log_->finish();
     const std::string lacking = "the log '" + plan_.log + "' lacks the last edits of this run" +
                                 (plan_.out.empty() ? "" : ", which '" + plan_.out + "' has");

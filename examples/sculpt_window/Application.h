@@ -87,7 +87,8 @@ public:
   /// Ends as soon as it can, without asking; a log keeps what is not saved.
   void end() {
     is_done_ = true;
-    unopened_.clear();   // the script is not over
+    if (is_playing())
+      unopened_.clear(); // a second `open` may have been to come
     thread_.break_off(); // what is yet to be saved is saved as it is then
   }
 

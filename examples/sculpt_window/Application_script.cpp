@@ -338,7 +338,7 @@ int Application::finish() {
   const int code = has_failed_to_open_ ? 3 : has_failed_to_write_ ? 5 : 0;
   leave_unseen();
   std::error_code unknown;
-  while (background_.is_opening() && is_log_new_ && std::filesystem::exists(opening_.back().path, unknown)) {
+  while (background_.is_opening() && is_log_new_ && std::filesystem::exists(opening_[1].path, unknown)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1)); // the log comes last, and goes with its mesh
     leave_unseen();
   }

@@ -52,6 +52,7 @@ private:
 class Part_runner {
 public:
   Part_runner() = default; ///< one after the other
+  bool is_shared() const { return run_ != nullptr; } ///< by threads
 
   /// \tparam Concurrency_tag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (oneTBB) or `CGAL::Parallel_if_available_tag`
   template <class Concurrency_tag>

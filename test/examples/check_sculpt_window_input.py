@@ -255,11 +255,10 @@ time.sleep(0.3)
 check(process.poll() is None, "a save that is refused quits")
 
 # What is done while another mesh is read is not left by it, though that was dropped twice.
-late = write(at("late.off"), box(150))
+late = write(at("late.off"), box(250))
 check(hand.drop(identity, late), "a dropped file is taken")
 eventually(lambda: lines_of(record).count(f"open {late}") == 1, "a file that is dropped once over unsaved work is refused")
 check(hand.drop(identity, late), "a dropped file is taken")
-time.sleep(0.5)
 dragged(vertex, goal)  # while the button is down another mesh does not come
 eventually(lambda: lines_of(record).count(f"open {late}") == 2, "it is refused once more", PATIENCE)
 check(title() == f"sculpt_window {saved} (not saved)", f"a mesh that was long in coming is opened over work since: {title()}")

@@ -8,11 +8,12 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include <array>
+#include <algorithm>
 #include <memory>
 #include <random>
 #include <set>
 #include <string>
+#include <vector>
 
 using namespace haptic_sculpt;
 using namespace exchange_tests;
@@ -176,21 +177,32 @@ BOOST_AUTO_TEST_CASE(a_zoom_is_the_same_in_all_modes_of_a_caller) {
 }
 
 BOOST_AUTO_TEST_CASE(a_loop_is_the_same_in_whatever_mode_of_a_caller_it_was_made) {
-  std::set<std::array<double, 3>> places;
+  Pose_loop_parameters parameters = parameters_of_tests();
+  parameters.coupling.damping = 0.3;
+  std::set<std::vector<double>> runs;
   for (const int rounding : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-    std::unique_ptr<Clutch_bench> b;
+    meshes::Mesh mesh = meshes::to_mesh(meshes::box(1, 1));
+    Sculptor<meshes::Mesh> sculptor(mesh);
+    std::unique_ptr<Pose_loop<Sculptor<meshes::Mesh>>> loop;
     {
       const haptic_sculpt::test::Callers_mode mode(rounding, true);
-      b = std::make_unique<Clutch_bench>();
+      loop = std::make_unique<Pose_loop<Sculptor<meshes::Mesh>>>(sculptor, map_of_tests, parameters);
     }
-    b->handle = map_of_tests.to_device(Vector3d(0.5, 0.4, 1.2)); // which rounds as the caller does
-    b->press_on();
-    for (int k = 0; k < 300; ++k)
-      b->go(Vector3d(0.00002, 0.00003, k < 100 ? 0 : 0.00006)); // along the face, then off it
-    const Vector3d& proxy = b->loop.tick(Pose_reading{b->handle, 0, 0.001}).tool.proxy;
-    places.insert({proxy[0], proxy[1], proxy[2]});
+    std::vector<double> run;
+    for (int k = 0; k < 900; ++k) { // takes a corner and lets it go, which leaves an offset; then presses on the face
+      if (k == 100)
+        loop->tool().take(meshes::Mesh::Vertex_index(0));
+      if (k == 200)
+        loop->tool().let_go();
+      const Vector3d way(0.5 + 1e-4 * k, 0.4, k < 300 ? 1.4 : std::fmax(0.9, 1.4 - 0.002 * (k - 300)));
+      const Haptic_tick& tick = loop->tick(Pose_reading{map_of_tests.to_device(way), 0, 0.001});
+      for (int i = 0; i < 3; ++i)
+        run.push_back(tick.rendered.force[i]), run.push_back(tick.tool.proxy[i]);
+    }
+    BOOST_TEST(*std::max_element(run.begin(), run.end()) > 1);
+    runs.insert(run);
   }
-  BOOST_TEST(places.size() == 1u);
+  BOOST_TEST(runs.size() == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(a_button_that_bounces_is_pressed_once_and_at_once) {

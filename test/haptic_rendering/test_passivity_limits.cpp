@@ -163,7 +163,10 @@ BOOST_AUTO_TEST_CASE(limits_that_were_made_for_something_else_or_by_nobody_are_r
   for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) { // of a caller: it is the same loop
     const haptic_sculpt::test::Callers_mode mode(rounding, true);
     check_limits(made, parameters, map, asked);
-    check_limits(passivity_limits(parameters, asked.limits, map, worst, lightest, 0, 0.001, 0), parameters, map, asked);
+    const Passivity_limits here =
+        passivity_limits(parameters, asked.limits, map, worst_pose(parameters, asked.limits, is_inside, 9),
+                         lightest_pose(parameters, asked.limits, is_inside, 9), 0, 0.001, 0);
+    check_limits(here, parameters, map, asked);
   }
   const auto is_refused = [](const Passivity_limits& limits, const Device_parameters<double>& device,
                              const Workspace_map& place, const Haptic_parameters& wanted) {

@@ -58,6 +58,7 @@ struct Worst_pose {
   }
   /// The least apparent mass at the handle, kg, in units of what is rendered.
   double apparent_mass(const Device_parameters<double>& parameters) const {
+    const internal::Rounding_to_nearest rounding;
     if (!is_found)
       return 0;
     const auto map = jacobian(parameters, pose);
@@ -101,6 +102,7 @@ Worst_pose rated_pose(const Device_parameters<double>& parameters, const Device_
 template <class Contains, class Badness>
 Worst_pose worst_pose_by(const Device_parameters<double>& parameters, const Force_limits& limits,
                          const Contains& contains, const Badness& badness, int per_joint) {
+  const Rounding_to_nearest rounding;
   using V = Device_vector<double>;
   constexpr std::size_t starts = 24;
   std::vector<Worst_pose> worst;

@@ -181,15 +181,24 @@ BOOST_AUTO_TEST_CASE(a_length_that_nothing_is_divided_by_may_be_any) {
   const Mesh_snapshot usual = remeshed(1e-5);
   for (const double length : {1e-60, 1e-100, 1e-120, 1e-300})
     BOOST_TEST((remeshed(length) == usual));
+  for (const double length : {1e60, 1e300}) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2));
+    Sculptor<Mesh> sculptor(mesh);
+    isotropic_remeshing(sculptor, length, CGAL::parameters::do_collapse(false));
+    BOOST_TEST(validate(mesh).is_valid());
+  }
 }
 
 // What borders on others is not split, and counts for nothing.
 BOOST_AUTO_TEST_CASE(a_length_too_short_is_refused_for_edges_that_may_be_split) {
   Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
   Sculptor<Mesh> sculptor(mesh);
-  const std::vector<Face_index> one{*mesh.faces().begin()}, all(mesh.faces().begin(), mesh.faces().end());
+  const std::vector<Face_index> all(mesh.faces().begin(), mesh.faces().end());
   const auto few = Remeshing_parameters().most_faces(100);
-  BOOST_TEST(isotropic_remeshing(one, sculptor, 1e-6, CGAL::parameters::default_values(), few).splits.done == 0u);
+  std::vector<Face_index> some{all[0]};
+  BOOST_TEST(isotropic_remeshing(some, sculptor, 1e-6, CGAL::parameters::default_values(), few).splits.done == 0u);
+  some.push_back(mesh.face(mesh.opposite(mesh.halfedge(all[0])))); // an edge between them, and the border stays
+  BOOST_TEST(isotropic_remeshing(some, sculptor, 1e-6, CGAL::parameters::default_values(), few).splits.done <= 1u);
   BOOST_CHECK_THROW(isotropic_remeshing(all, sculptor, 1e-6, CGAL::parameters::default_values(), few),
                     Invalid_parameter);
   BOOST_CHECK_THROW(

@@ -91,7 +91,10 @@ BOOST_AUTO_TEST_CASE(attributes_beside_many_points_at_one_place) {
     BOOST_TEST((to.attributes[0].values == std::vector<double>{100000, 100001, 100002, 100003}));
   }
   BOOST_TEST(repair(soup).is_repaired());
-  BOOST_TEST(soup.points.size() == 4u);
+  BOOST_REQUIRE(soup.points.size() == 4u);
+  const std::vector<Point_3> before = soup_of(meshes::tetrahedron()).points;
+  for (std::size_t v = 0; v < 4; ++v)
+    BOOST_TEST((soup.points[v] == before[static_cast<std::size_t>(soup.attributes[0].values[v]) - 100000]));
 }
 
 // The unit to compute in is that of the faces.

@@ -27,7 +27,7 @@ class Hand_path {
 public:
   /// m and s: whoever writes more means another unit.
   static constexpr double largest_number = 1e9;
-  /// s, between two rows, as they are written: velocities stay finite.
+  /// s, between two rows, of which rounding may take half: velocities stay finite.
   static constexpr double least_time = 1e-9;
 
   /// A place, and when.

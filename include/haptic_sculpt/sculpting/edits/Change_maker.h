@@ -184,8 +184,10 @@ private:
     }
     try {
       broad_phase_->many_faces_moved(faces_, *corners_of_, run);
-    } catch (const std::bad_alloc&) { // of who shares the work: alone it takes no memory
-      broad_phase_->many_faces_moved(faces_, *corners_of_, Part_runner());
+    } catch (const std::bad_alloc&) {
+      if (!run.is_shared())
+        throw;
+      broad_phase_->many_faces_moved(faces_, *corners_of_, Part_runner()); // alone it takes no memory
     }
     noted(Vertex_index());
     writing_->end();

@@ -118,7 +118,7 @@ private:
     for (const Face_index f : star.faces)
       patches_.push_back(state_.marks.patch(f));
     old_faces_ = star.faces;
-    state_.marks.make_room();
+    state_.marks.make_room(star.valence());
     if (!State::counted(static_cast<bool>(state_.sculptor.collapse(h)), state_.report.collapses))
       return {};
     hand_on(target, pivot, line_end, line);

@@ -62,7 +62,7 @@ private:
 
   /// \return the new vertex, or the null index
   Vertex_index split(Edge_index e) {
-    state_.marks.make_room();
+    state_.marks.make_room(4); // where no garbage is recycled
     const auto marks = state_.marks.split_of(e);
     const Halfedge_index h = mesh_.halfedge(e);
     const std::array<Face_index, 2> old_faces = {mesh_.face(h), mesh_.face(mesh_.opposite(h))};

@@ -34,10 +34,10 @@ public:
   Patch operator()(Face_index f) const { return patch_[static_cast<std::size_t>(f)]; }
   std::size_t size() const { return number_; } ///< how many patches there are
 
-  /// For two new faces.
-  void make_room() {
-    if (patch_.capacity() < mesh_->num_faces() + 2)
-      patch_.reserve(2 * (mesh_->num_faces() + 2));
+  /// For this many new faces.
+  void make_room(std::size_t faces) {
+    if (patch_.capacity() < mesh_->num_faces() + faces)
+      patch_.reserve(2 * (mesh_->num_faces() + faces));
   }
   /// f is a new face, of this patch.
   void set(Face_index f, Patch patch) {

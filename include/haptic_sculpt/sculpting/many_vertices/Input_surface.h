@@ -5,6 +5,7 @@
 #include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/nearest_point_tree.h>
 
+#include <cmath>
 #include <deque>
 
 namespace haptic_sculpt::internal {
@@ -45,6 +46,9 @@ public:
   /// The nearest point of a patch. \param place in: a triangle that is near, any will do; out: the one that the point
   /// is on
   Coordinates project(const Coordinates& p, std::size_t patch, Place& place) const {
+    // CGAL's trees end the process by what is no point; who moves a vertex there refuses it.
+    if (!(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])))
+      return p;
     if (place < begins_[patch] || place >= begins_[patch + 1])
       place = begins_[patch];
     const Point hint = Nearest_point_of_triangle<Kernel>()(triangles_[place], point(p));

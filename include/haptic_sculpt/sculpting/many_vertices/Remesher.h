@@ -131,7 +131,7 @@ private:
   bool flip(Edge_index e) {
     const auto old_faces = faces(e);
     const auto patch = marks_.patch(old_faces[0]);
-    marks_.make_room();
+    marks_.make_room(2);
     const Vertex_index b = corners(e)[1];
     if (!state_.sculptor.flip(e))
       return false;

@@ -104,14 +104,15 @@ public:
     return !is_fixed(v) && is_in_range(mesh_->face(mesh_->halfedge(v)));
   }
 
-  /// Before an edit, so that what it makes is noted without memory: two faces, three edges and a vertex more at most.
-  void make_room() {
+  /// Before an edit, so that what it makes is noted without memory: this many edges and faces more at most, and a
+  /// vertex.
+  void make_room(std::size_t elements) {
     const auto reserve = [](auto& list, std::size_t size) {
       if (list.capacity() < size)
         list.reserve(2 * size);
     };
-    reserve(constraints_, mesh_->num_edges() + 3), reserve(is_fixed_, mesh_->num_vertices() + 1);
-    patches_.make_room();
+    reserve(constraints_, mesh_->num_edges() + elements), reserve(is_fixed_, mesh_->num_vertices() + 1);
+    patches_.make_room(elements);
   }
   /// Before e is split.
   Split split_of(Edge_index e) const {
