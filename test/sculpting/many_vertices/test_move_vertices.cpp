@@ -195,10 +195,10 @@ BOOST_AUTO_TEST_CASE(a_clearance_that_the_scene_has_outgrown_is_told_before_anyt
   const std::size_t first_of_other = list.points.size();
   list += meshes::tetrahedron().scale_and_move(1, 5, 0, 0);
   Mesh mesh = meshes::to_mesh(list);
-  Sculptor<Mesh> sculptor(mesh, Drag_parameters().clearance(1e-9));
+  Sculptor<Mesh> sculptor(mesh, parameters::clearance(1e-9));
   std::vector<Vertex_index> ball, other;
   for (const Vertex_index v : mesh.vertices())
-    (v < first_of_other ? ball : other).push_back(v);
+    (static_cast<std::size_t>(v) < first_of_other ? ball : other).push_back(v);
   BOOST_TEST(move_rigidly(sculptor, other, translation({0x1p24, 0, 0})).share == 1);
   const Point_map through = targets(mesh, [&](Vertex_index v) { return Point_3(0, 0, -mesh.point(v).z()); });
   const Mesh_snapshot before = snapshot(sculptor);
