@@ -18,20 +18,29 @@ public:
   /// fading (passivity_limits) \throw Unstable_coupling if they do not permit the coupling, the virtual mass or the
   /// passivity controller; Error for parameters that cannot be used, and for limits that were made for others
   Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device, const Device_pose<double>& start,
-              const Workspace_map& map, const Haptic_parameters& parameters, const Passivity_limits& limits,
-              const internal::Rounding_to_nearest& /*rounding*/ = internal::Rounding_to_nearest())
-      : Base(sculptor, Joint_side(device, start, parameters), map, parameters, limits.default_controller()) {
-    check_limits(limits, device, map, parameters);
-  }
+              const Workspace_map& map, const Haptic_parameters& parameters, const Passivity_limits& limits)
+      : Haptic_loop(sculptor, device, start, map, parameters, limits, Rounding()) {}
   /// Makes the limits by itself, for the box of the mesh as it is and a tenth beyond. Some tenths of a second.
   Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device, const Device_pose<double>& start,
-              const Workspace_map& map, const Haptic_parameters& parameters,
-              const internal::Rounding_to_nearest& /*rounding*/ = internal::Rounding_to_nearest())
-      : Haptic_loop(sculptor, device, start, map, parameters, limits_of(sculptor, device, map, parameters)) {}
+              const Workspace_map& map, const Haptic_parameters& parameters)
+      : Haptic_loop(sculptor, device, start, map, parameters, Rounding()) {}
 
   const Handle_motion& handle() const { return this->interaction().side().handle(); } ///< in the last tick
 
 private:
+  using Rounding = internal::Rounding_to_nearest; // lives while the loop is made
+
+  Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device, const Device_pose<double>& start,
+              const Workspace_map& map, const Haptic_parameters& parameters, const Passivity_limits& limits,
+              const Rounding& /*rounding*/)
+      : Base(sculptor, Joint_side(device, start, parameters), map, parameters, limits.default_controller()) {
+    check_limits(limits, device, map, parameters);
+  }
+  Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device, const Device_pose<double>& start,
+              const Workspace_map& map, const Haptic_parameters& parameters, const Rounding& rounding)
+      : Haptic_loop(sculptor, device, start, map, parameters, limits_of(sculptor, device, map, parameters), rounding) {
+  }
+
   static Passivity_limits limits_of(const Sculptor_& sculptor,
                                     const Device_parameters<double>& device, const Workspace_map& map,
                                     const Haptic_parameters& parameters) {

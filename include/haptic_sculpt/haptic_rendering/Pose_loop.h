@@ -91,8 +91,13 @@ public:
 
   /// \throw Unstable_coupling if the coupling is not passive on this device, or the controller too strong; Error for
   /// parameters that cannot be used
+  Pose_loop(Sculptor_& sculptor, const Workspace_map& map, const Pose_loop_parameters& parameters)
+      : Pose_loop(sculptor, map, parameters, internal::Rounding_to_nearest()) {}
+
+private:
+  // The mode lives while the loop is made.
   Pose_loop(Sculptor_& sculptor, const Workspace_map& map, const Pose_loop_parameters& parameters,
-            const internal::Rounding_to_nearest& /*rounding*/ = internal::Rounding_to_nearest())
+            const internal::Rounding_to_nearest& /*rounding*/)
       : Base(sculptor, Pose_side(parameters.device, parameters.checked()), map, parameters.checked(),
              0.5 * parameters.largest_controller()) {
     if (!parameters.has_force())

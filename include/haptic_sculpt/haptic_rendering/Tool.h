@@ -34,12 +34,11 @@ public:
   static constexpr double offset_time = 0.2;
 
   /// \param reach of a grab, in the device, m \param tick s \throw Error naming what cannot be used
-  Tool(Sculptor& sculptor, const Workspace_map& map, double reach, double tick,
-       const internal::Rounding_to_nearest& /*rounding*/ = internal::Rounding_to_nearest())
+  Tool(Sculptor& sculptor, const Workspace_map& map, double reach, double tick)
       : sculptor_(&sculptor)
       , map_(map)
       , reach_(reach)
-      , offset_share_(std::exp(-tick / offset_time))
+      , offset_share_(offset_share(tick))
       , mesh_edits_(sculptor) {
     internal::require_reach("the reach of a Tool, that of a grab,", reach);
     internal::require_number("the tick of a Tool", "s", tick, 0, 1);
@@ -202,6 +201,12 @@ private:
   /// From where things are sought that the hand wants.
   Eigen::Vector3d aim(const Eigen::Vector3d& hand) const {
     return probe_ ? internal::vector_of(probe_->position()) : placement_ ? placement_->place : hand;
+  }
+
+  /// That is left of the offset after a tick.
+  static double offset_share(double tick) {
+    const internal::Rounding_to_nearest rounding;
+    return std::exp(-tick / offset_time);
   }
 
   void drop_probe() { probe_.reset(), touched_.reset(), placement_.reset(); }
