@@ -99,6 +99,10 @@ public:
     if (plan_.is_real_time)
       leave_real_time();
     carry_on([&] { finish(loop, scene); });
+    carry_on([&] {
+      if (*loop.failure() != '\0')
+        writer_.note(std::string("the fault `error`: ") + loop.failure());
+    });
     carry_on([&] { result_.is_valid = validate(scene.mesh).is_valid(); }); // last: it needs memory
     return std::move(result_);
   }
@@ -274,15 +278,15 @@ private:
                    map.home()[0],
                    map.home()[1],
                    map.home()[2]};
-    if (*loop.failure() != '\0')
-      writer_.note(std::string("the fault `error`: ") + loop.failure());
     log_->finish();
-    const std::string lacking = "the log '" + plan_.log + "' lacks the last edits of this run" +
-                                (plan_.out.empty() ? "" : ", which '" + plan_.out + "' has");
+    const auto lacking = [&] {
+      return "the log '" + plan_.log + "' lacks the last edits of this run" +
+             (plan_.out.empty() ? "" : ", which '" + plan_.out + "' has");
+    };
     if (log_->has_overrun() && !result_.faults.empty()) // which is one
-      writer_.note(lacking);
+      writer_.note(lacking());
     else if (log_->has_overrun() || log_->unwritten() > 0) // the run has ended before that
-      writer_.fail(lacking);
+      writer_.fail(lacking());
     writer_.write(plan_.out, [&](const std::string& path) {
       Write_parameters parameters;
       for (std::size_t name = 0; name < sculptor.number_of_ids(); ++name)

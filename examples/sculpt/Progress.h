@@ -33,7 +33,7 @@ public:
         } catch (const std::exception&) { // no memory: what goes on does without being told
         }
       });
-    } catch (const std::system_error&) { // no more threads: what goes on does without being told
+    } catch (const std::exception&) { // no more threads, or memory: what goes on does without being told
     }
   }
   Progress(const Progress&) = delete;

@@ -125,7 +125,7 @@ void measure(const char* name, const Population& p, int checked, int repetitions
         const auto all = ditetrahedral_inverse(parameters, poses[k].position);
         Device_vector<S> of_knees;
         for (int i = 0; i < 3; ++i)
-          of_knees[i] = (knees[i] == 0 ? all->plus : all->minus)[i];
+          of_knees[i] = (knees[i] == 0 ? all->minus : all->plus)[i];
         all_inverses.values.push_back(relative_error(of_knees, truth_of_it, Exact(1)));
       }
     }

@@ -13,7 +13,8 @@ namespace haptic_sculpt::internal {
 ///
 /// The unit is about a given length, or the largest coordinate where that is less: lengths in the unit are then about
 /// one where a remeshing to that length has anything to do, whatever they are outside. Of a length that is 2^100 times
-/// shorter than an edge of the range it is about that edge: edges about as short as the length may stay as they are.
+/// shorter than an edge of the range it is 2^-100 of that edge: edges about as short as the length may stay as they
+/// are.
 template <class Mesh>
 class Scaled_points {
 public:

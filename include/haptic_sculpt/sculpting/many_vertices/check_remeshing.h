@@ -41,8 +41,8 @@ inline void check_remeshing(double target_edge_length, const Remeshing_parameter
 ///
 /// An edge of length l becomes at least l / (4/3 L) edges, and a closed surface has two thirds as many faces as edges.
 /// No triangle with edges of at most 4/3 L has a larger area than the equilateral one.
-/// \param may_split of an edge of the faces. Where a long one may not, those beside it may stay, too: nothing is
-/// refused \throw Invalid_parameter
+/// \param may_split of an edge of the faces. Faces with a long one that may not are left out: those beside it
+/// may stay, too \throw Invalid_parameter
 template <class Mesh, class May_split>
 void check_number_of_faces(const Mesh& mesh, const Scaled_points<Mesh>& points,
                            const std::vector<typename Mesh::Face_index>& faces, const Remeshing_named_parameters& named,
@@ -52,12 +52,16 @@ void check_number_of_faces(const Mesh& mesh, const Scaled_points<Mesh>& points,
   const double largest_area = std::sqrt(3.0) / 4 * longest * longest;
   double area = 0, more_edges = 0;
   for (const auto f : faces) {
+    double more = 0;
+    bool may_split_all = true;
     for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) {
-      const double more = larger(0, length(minus(points(mesh.target(h)), points(mesh.source(h)))) / longest - 1);
-      if (more > 0 && !may_split(mesh.edge(h)))
-        return;
-      more_edges += more / 2; // each edge is counted at both of its faces
+      const double of_edge = length(minus(points(mesh.target(h)), points(mesh.source(h)))) / longest - 1;
+      more += larger(0, of_edge) / 2; // each edge is counted at both of its faces
+      may_split_all = may_split_all && (!(of_edge > 0) || may_split(mesh.edge(h)));
     }
+    if (!may_split_all)
+      continue;
+    more_edges += more;
     const auto corners = corners_of_face(mesh, f);
     area += length(area_normal(points(corners[0]), points(corners[1]), points(corners[2]))) / 2;
   }
