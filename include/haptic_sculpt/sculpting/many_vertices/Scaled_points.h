@@ -29,8 +29,8 @@ public:
     for (const Face_index f : range) {
       const auto corners = corners_of_face(mesh, f);
       for (int k = 0; k < 3; ++k)
-        length = larger(length, 0x1p-100 * quick_magnitude(minus(vertex_coordinates(mesh, corners[k]),
-                                                                 vertex_coordinates(mesh, corners[(k + 1) % 3]))));
+        length = larger(length, least_share * quick_magnitude(minus(vertex_coordinates(mesh, corners[k]),
+                                                                    vertex_coordinates(mesh, corners[(k + 1) % 3]))));
     }
     for (const Vertex_index v : mesh.vertices())
       largest = larger(largest, quick_magnitude(vertex_coordinates(mesh, v)));
@@ -61,6 +61,8 @@ public:
 private:
   static constexpr int largest_exponent = 1000; ///< 2^-1000, too, has a reciprocal
   static constexpr double most_length = 0x1p200;
+  /// Of an edge, the unit: sixth powers of edges, which measures of shape take, are numbers then.
+  static constexpr double least_share = 0x1p-100;
 
   const Mesh* mesh_;
   double to_unit_, from_unit_;
