@@ -122,8 +122,8 @@ inline Device_description<double> device_from_json(const nlohmann::json& device)
   const Device_description<double> d = device_description_from_json(
       params, device_form_from_json(params.value("form", nlohmann::json("ditetra"))), true);
   Device_parameters<double>{d}; // throws what is wrong with it
-  if (d.primary_mass == 0 && d.secondary_mass == 0 && d.platform_mass == 0)
-    throw Bad_request("`m1`, `m2` and `M` are all 0, and what has no mass has no motion: give one of them more");
+  if (d.primary_mass == 0 && d.secondary_mass == 0 && d.platform_mass == 0 && d.rotor_inertia == 0)
+    throw Bad_request("`m1`, `m2`, `M` and `Jm` are all 0, and what has no mass has no motion: give one of them more");
   return d;
 }
 

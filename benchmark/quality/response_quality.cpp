@@ -35,6 +35,7 @@ using benchmark::Shard;
 /// One scene, response and clearance.
 struct Row {
   std::size_t drags = 0, held = 0, judged = 0, at_minimum = 0, legs = 0, most_legs = 0;
+  std::size_t unfinished = 0; ///< judged, and at no minimum, for their legs were used up
   double left = 0; ///< sum of distances left to the target, in half extents of the scene
   std::vector<double> nanoseconds;
 };
@@ -69,11 +70,13 @@ public:
         order_.push_back(subject.name);
       Row& row = rows_[subject.name][name_of(response)];
       for (const Point_3& target : targets) {
+        const Point_3 start = mesh.point(subject.moved);
         const auto begin = std::chrono::steady_clock::now();
         const auto r = grab.drag_to(target);
         row.nanoseconds.push_back(
             std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count());
         ++row.drags;
+        contradictions_ += test::contradiction(r, start, target) != nullptr;
         row.held += !r.reached;
         row.legs += static_cast<std::size_t>(r.legs);
         row.most_legs = std::max(row.most_legs, static_cast<std::size_t>(r.legs));
@@ -83,7 +86,9 @@ public:
         if (!check.asked) // arrived, or almost
           continue;
         ++row.judged;
-        row.at_minimum += check.random_gain <= 0 && check.directed_gain <= 0;
+        const bool is_at_minimum = check.random_gain <= 0 && check.directed_gain <= 0;
+        row.at_minimum += is_at_minimum;
+        row.unfinished += !is_at_minimum && r.end == Drag_end::leg_limit;
       }
       ++validations_;
       invalid_ += !validate(grab.surface()).is_valid();
@@ -92,6 +97,14 @@ public:
 
   std::size_t invalid() const { return invalid_; }
   std::size_t validations() const { return validations_; }
+  std::size_t contradictions() const { return contradictions_; }
+  /// Of all scenes.
+  std::size_t sum(Response response, std::size_t Row::*count) const {
+    std::size_t sum = 0;
+    for (const auto& [scene, rows] : rows_)
+      sum += rows.at(name_of(response)).*count;
+    return sum;
+  }
 
   Json json() const {
     Json all = Json::array();
@@ -112,6 +125,7 @@ public:
                        {"mean_distance_left", row.left / n},
                        {"judged", row.judged},
                        {"at_minimum", row.at_minimum},
+                       {"unfinished", row.unfinished},
                        {"mean_legs", static_cast<double>(row.legs) / n},
                        {"most_legs", row.most_legs},
                        {"mean_ns", sum / n},
@@ -134,7 +148,7 @@ private:
   std::map<std::string, Unit> units_;
   std::vector<std::string> order_;
   std::map<std::string, std::map<std::string, Row>> rows_; ///< of a scene and a response
-  std::size_t invalid_ = 0, validations_ = 0;
+  std::size_t invalid_ = 0, validations_ = 0, contradictions_ = 0;
 };
 
 /// Larger objects are dragged as robustness does; this is the response, not the mesh.
@@ -200,6 +214,7 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
   }
   Json report = {{"seed", options.seed}, {"drags_per_scene", options.drags}, {"refused", refused}};
   std::size_t validations = 0, invalid = 0, drags = 0, contradictions = 0, minima = 0, missed = 0;
+  std::size_t finished = 0, at_minimum = 0; // slides of the chart
   if (options.drags > 0) {
     Chart chart(options.seed + 1, shard);
     chart_scenes(chart, options.drags, random);
@@ -212,6 +227,11 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
                 << " that do not arrive, legs " << row["mean_legs"] << " (most " << row["most_legs"] << "), "
                 << row["mean_ns"] << " ns\n";
     validations += chart.validations(), invalid += chart.invalid();
+    contradictions += chart.contradictions();
+    for (const Response response : responses)
+      drags += chart.sum(response, &Row::drags);
+    finished += chart.sum(Response::slide, &Row::judged) - chart.sum(Response::slide, &Row::unfinished);
+    at_minimum += chart.sum(Response::slide, &Row::at_minimum);
   }
   if (options.sculpt > 0) {
     Json rows = Json::array();
@@ -236,6 +256,7 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
   promises.add(not_embedded, "every mesh is embedded and no leg crosses anything", validations, invalid);
   promises.add(contradiction, "no result contradicts itself", drags, contradictions);
   promises.add(no_minimum, "a slide ends at a local minimum", minima, missed, 1e-3);
+  promises.add(no_minimum, "a slide of the chart that has legs left does", finished, finished - at_minimum, 1e-3);
   return report;
 }
 
@@ -251,7 +272,8 @@ int main(int argc, char** argv) {
       "Exit: 10 a mesh is "
       "no longer embedded or a leg "
       "crosses something, 11 more than 0.1 % of "
-      "the checked slides are at no minimum, 12 a result contradicts itself.");
+      "the slides are at no minimum (of the chart those with legs left, and those checked of --sculpt), 12 a result "
+      "contradicts itself.");
   app.add_option("--meshes", options.folder,
                  "Folder of meshes, beside the generated scenes; what cannot be read, or is refused, is listed")
       ->check(CLI::ExistingDirectory);

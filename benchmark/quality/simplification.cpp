@@ -4,6 +4,7 @@
 #include "Benchmark_program.h"
 #include "meshes/generated_meshes.h"
 #include "meshes/thin_walls.h"
+#include "sculpting/many_vertices/Edge_count_stop.h"
 
 #include <haptic_sculpt/sculpting/decimate.h>
 #include <haptic_sculpt/surface.h>
@@ -11,7 +12,6 @@
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Random.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
@@ -51,8 +51,7 @@ template <class Simplify>
 Json row(const std::string& name, const char* method, int policies, double share, const Mesh& input,
          const Simplify& simplify) {
   Mesh mesh = input;
-  const SMS::Count_stop_predicate<Mesh> stop(
-      static_cast<std::size_t>(share * static_cast<double>(mesh.number_of_edges())));
+  const Edge_count_stop<Mesh> stop(static_cast<std::size_t>(share * static_cast<double>(mesh.number_of_edges())));
   const std::clock_t begin = std::clock();
   if (policies == 0) {
     simplify(mesh, stop, CGAL::parameters::default_values());

@@ -24,7 +24,9 @@ def comparisons_of(path):
 
 def kept(row):
     guarded = row["guarded"]
-    return guarded["pairs"] == 0 and guarded["valid"] and row["undone_to_the_bit"] and row["redone_to_the_bit"]
+    has_failed = guarded["failed"] and not row["plain"]["failed"]
+    return (guarded["pairs"] == 0 and guarded["valid"] and not has_failed and row["undone_to_the_bit"]
+            and row["redone_to_the_bit"])
 
 
 def print_row(*cells):
@@ -71,14 +73,15 @@ def tell_functions(moved):
                 "seconds alone / guarded, median", "time ratio, median")
     for function, way in dict.fromkeys((row["function"], row["way"]) for row in moved):
         of = [row for row in moved if (row["function"], row["way"]) == (function, way)]
-        shares = [100 * row["share"] for row in of]
+        shares = [100 * row["share"] for row in of if row["share"] is not None]
         print_row(function, way, len(of), sum(row["plain"]["pairs"] > 0 for row in of),
-                  "" if way == "functor" else f"{min(shares):.1f}, {median(shares):.1f}",
+                  f"{min(shares):.1f}, {median(shares):.1f}" if shares else "",
                   medians(of, "seconds", ".2g"), median_ratio((row["time_ratio"] for row in of), ".1f"))
     begin_table("mesh", "function", "way", "pairs alone", "% of the way", "least angle", "mean least angle",
                 "seconds guarded", "drags")
     for row in moved:
-        print_row(*mesh_and_function(row), row["way"], row["plain"]["pairs"], f"{100 * row['share']:.1f}",
+        print_row(*mesh_and_function(row), row["way"], row["plain"]["pairs"],
+                  "" if row["share"] is None else f"{100 * row['share']:.1f}",
                   of_both(row, "least_angle", ".2g"), of_both(row, "mean_least_angle", ".1f"),
                   f"{row['guarded']['seconds']:.2f}", f"{row['drags'] or ''}{' (all)' if row['out_of_work'] else ''}")
 

@@ -33,6 +33,8 @@ void Journal_writer::run() {
 
 /// A tick or less. \return whether there was anything
 bool Journal_writer::write_what_is_there() {
+  if (log_->has_failed())
+    return drop_what_is_there();
   Edit edit;
   if (commands_.size() == commands_.capacity()) // before it is taken: what is taken is not lost for want of room
     commands_.reserve(2 * commands_.size() + 16);
@@ -49,6 +51,20 @@ bool Journal_writer::write_what_is_there() {
     ++ticks_;
   commands_.clear();
   journal_->wrote(1);
+  return true;
+}
+
+/// The same of a log that takes nothing any more: what edits must not wait for room in the journal.
+bool Journal_writer::drop_what_is_there() {
+  unwritten_ += commands_.size();
+  std::vector<Command>().swap(commands_); // its memory may be what lacked
+  Edit edit;
+  if (!journal_->take(edit))
+    return false;
+  if (edit.kind == Edit_kind::none)
+    journal_->wrote(1);
+  else
+    ++unwritten_;
   return true;
 }
 

@@ -41,6 +41,7 @@ private:
 
   void run();
   bool write_what_is_there();
+  bool drop_what_is_there();
 };
 
 } // namespace haptic_sculpt::examples

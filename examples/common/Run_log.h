@@ -20,12 +20,12 @@ public:
     file_->drop_unfinished_tick();
   }
 
-  /// How many were in it, directives not counted.
+  /// How many were in it; what changes nothing is not counted, such as what a click of the mouse leaves.
   std::size_t number_of_edits() const {
     std::size_t edits = 0;
     if (file_ && file_->contents())
       for (const Command& command : file_->contents()->commands)
-        edits += command.kind < Command::Kind::response;
+        edits += changes_mesh(command);
     return edits;
   }
 
@@ -108,6 +108,13 @@ public:
   std::string failure() const { return file_ ? file_->failure() : ""; }
 
 private:
+  static bool changes_mesh(const Command& command) {
+    return command.kind == Command::Kind::edit
+               ? command.edit.kind != Edit_kind::stroke && command.edit.kind != Edit_kind::end
+               : command.kind < Command::Kind::response && command.kind != Command::Kind::release &&
+                     command.kind != Command::Kind::probe;
+  }
+
   std::optional<Log_file> file_;
   std::optional<Edit_journal> journal_;
   std::optional<Journal_writer> writer_; ///< last: it uses the others

@@ -61,6 +61,7 @@ Line_outcome carry_out_brush(Sculptor& sculptor, const Command& command) {
     return Line_outcome::refused("out-of-range", "the strength is more than 2^53 times what it is measured in");
   const Move_report report = apply_brush(sculptor, std::array<Dab_3<Kernel>, 1>{dab},
                                          boost::static_property_map<double, Vertex_index>(1.0), Move_parameters());
+  sculptor.release(); // of the vertex that slid last: a drag of it is a grab of its own
   if (report.asked == 0)
     return Line_outcome::refused("nothing-in-reach", "no vertex is nearer to the centre than the radius");
   std::ostringstream detail;
@@ -171,7 +172,7 @@ Line_outcome carry_out_delta(Sculptor& sculptor, const Command& command) {
   return {};
 }
 
-/// What is in the hand is let go: only moves that follow each other are one grab. A probe changes nothing.
+/// What is in the hand is let go: only drags that follow each other are one grab. A probe changes nothing.
 /// \param journal hears what a move does, edit by edit \pre the line is no edit by value
 template <class Sculptor, class Journal = Edit_journal>
 Line_outcome carry_out_line(Sculptor& sculptor, const Command& command, Journal* journal = nullptr) {

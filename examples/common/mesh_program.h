@@ -20,8 +20,8 @@ inline std::string message_of(const std::exception& error) {
   if (refused == nullptr)
     return error.what();
   const std::string said = refused->what();
-  std::string text =
-      said.substr(0, said.find('\n') + 1) + refused->report().message(8, Validity_report::Reader::user);
+  std::string text = said.substr(0, said.find(refused->report().message())) + // a name may have line ends
+                     refused->report().message(8, Validity_report::Reader::user);
   if (!refused->report().non_triangular_faces.empty())
     text += "`sculpt MESH --triangulate -o OUT` divides polygons into triangles, where nothing else is wrong.\n";
   if (refused->report().is_repairable())

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/sculpting/brushes/scaled_directions.h>
+
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
-#include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Surface_mesh.h>
+#if CGAL_VERSION_NR >= 1060000000
+#include <CGAL/AABB_traits_3.h>
+#else
+#include <CGAL/AABB_traits.h>
+#endif
 
 #include <cmath>
 #include <vector>
@@ -33,13 +38,18 @@ std::vector<float> openness(const CGAL::Surface_mesh<Point>& mesh) {
   for (const auto f : mesh.faces())
     if (!CGAL::Polygon_mesh_processing::is_degenerate_triangle_face(f, mesh))
       faces.push_back(f);
-  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(faces.begin(), faces.end(), mesh);
+#if CGAL_VERSION_NR >= 1060000000
+  using Traits = CGAL::AABB_traits_3<Kernel, Primitive>;
+#else
+  using Traits = CGAL::AABB_traits<Kernel, Primitive>;
+#endif
+  CGAL::AABB_tree<Traits> tree(faces.begin(), faces.end(), mesh);
 
   std::vector<float> result(mesh.num_vertices(), 1);
   for (const auto v : mesh.vertices()) {
     if (mesh.is_isolated(v))
       continue;
-    const Vector normal = CGAL::Polygon_mesh_processing::compute_vertex_normal(v, mesh);
+    const Vector normal = vertex_normal(mesh, v);
     double open = 0, all = 0;
     for (int i = 0; i < directions; ++i) { // spread evenly over the sphere, on a spiral by the golden angle
       const double z = 1 - (2 * i + 1.) / directions, angle = 2.399963229728653 * i, r = std::sqrt(1 - z * z);

@@ -7,9 +7,10 @@ namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path) {
   throw Picture_error("Cannot write the picture " + path.string() +
-                      ": this program was built without pictures. Install "
-                      "libepoxy-dev, libegl-dev, libgl1-mesa-dri, libpng-dev, libfreetype-dev and fonts-dejavu-core "
-                      "and build it anew, or ask for no picture.");
+                      ": this program was built without pictures, " HAPTIC_SCULPT_MISSING
+                      ". Install libepoxy-dev, libegl-dev, libgl1-mesa-dri, libpng-dev, libfreetype-dev and "
+                      "fonts-dejavu-core, configure with -DHAPTIC_SCULPT_PICTURES=ON and build it anew, or ask for no "
+                      "picture.");
 }
 
 } // namespace

@@ -20,9 +20,9 @@ inline void write_labels(Image& image, const Scene& scene, const Camera& camera,
   for (const Label& label : scene.labels) {
     const Eigen::Vector4d clip = camera.projection() * camera.scaled(label.place).homogeneous();
     const Eigen::Vector2d at = camera.pixel(label.place);
-    const int x = int(at.x()), y = int(at.y());
-    if (!(clip.w() > 0) || x < 1 || y < 1 || x >= camera.width() - 1 || y >= camera.height() - 1)
+    if (!(clip.w() > 0 && at.x() >= 1 && at.y() >= 1 && at.x() < camera.width() - 1 && at.y() < camera.height() - 1))
       continue;
+    const int x = int(at.x()), y = int(at.y());
     float behind = 0; // the farthest of the surface here
     for (int i = -1; i <= 1; ++i)
       for (int j = -1; j <= 1; ++j)

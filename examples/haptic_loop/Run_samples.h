@@ -39,7 +39,8 @@ public:
     Eigen::Vector3d place;
     std::string what;
   };
-  std::vector<Event> events; ///< of the button
+  static constexpr std::size_t most_events = 2000; ///< more hide the mesh, and each is a ball of 400 triangles
+  std::vector<Event> events;                       ///< of the button, the first of them
 
   const std::vector<Sample>& samples() const { return samples_; }
 

@@ -77,9 +77,11 @@ int loop(const Arguments& arguments) {
                         " s, before the first tick: give --seconds, or times above 0");
     const double seconds = arguments.seconds.value_or(plan.path->end());
     const double tick = 1 / settings.rate;
-    double ticks = std::ceil(seconds * settings.rate); // at most one more than there are, by rounding
+    double ticks = std::ceil(seconds * settings.rate); // one more or less than there are, by rounding
     if (ticks > 1 && (ticks - 1) * tick >= seconds)
       --ticks;
+    else if (ticks * tick < seconds)
+      ++ticks;
     const double last_tick = (ticks - 1) * tick;
     if (plan.fault && plan.fault->time > last_tick)
       throw Usage_error("--fault comes at " + examples::decimal(plan.fault->time) + " s, after the last tick, at " +

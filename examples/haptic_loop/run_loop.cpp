@@ -252,7 +252,7 @@ private:
   void sample(const Tool_step& tool) {
     samples_.add({tool.target, tool.proxy, !tool.reached});
     constexpr const char* words[] = {"", "grabbed", "created", "created", "released", "removed", "refused"};
-    if (tool.event != Tool_event::none)
+    if (tool.event != Tool_event::none && samples_.events.size() < Run_samples::most_events)
       samples_.events.push_back({tool.proxy, words[static_cast<int>(tool.event)]});
   }
 

@@ -113,7 +113,7 @@ private:
   static Command as_refused(Command setting) {
     if (setting.is_restored)
       throw examples::Usage_error(
-          "the script had this when it broke off, and the mesh, changed since, does not take it. "
+          "the script had this when it broke off behind that line, and the mesh, changed since, does not take it. "
           "Undo what was done since, or carry out the lines that are left as another script");
     setting.is_refused = true;
     return setting;

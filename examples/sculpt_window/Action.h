@@ -50,7 +50,7 @@ struct Action {
   std::size_t line = 0;
   Spot spot, to; ///< move: from `spot` by `share` of the way to `to`
   double share = 0;
-  std::string word; ///< key, file; press: button and modifiers; scroll: its modifier
+  std::string word; ///< key, file; press: button and modifiers; scroll: its modifier; of what it sets: the line
   int which = 0;    ///< of the tools or brushes; symmetry: a bit for each axis
   std::array<double, 3> numbers{};
 };

@@ -56,7 +56,7 @@ void Application::enter(Opened opened) {
   frames_due_ = 3;
   say("opened " + path_);
   if (opened.resumed > 0)
-    say("made " + std::to_string(opened.resumed) + " lines of " + log_ + " again");
+    say("made " + std::to_string(opened.resumed) + " edits of " + log_ + " again");
   if (!opened.note.empty())
     say(opened.note);
 }
@@ -166,8 +166,8 @@ void Application::on_key(const Key& key) {
   // What a dialogue asks for is noted when it is answered; and a recording does not record.
   const bool asks_for_name =
       choices_.question == Choices::Question::name_to_save || choices_.question == Choices::Question::name_to_open;
-  if (is_playing() ||
-      (key.order != Order::save && key.order != Order::open && key.order != Order::record && !asks_for_name))
+  if (key.order != Order::record &&
+      (is_playing() || (key.order != Order::save && key.order != Order::open && !asks_for_name)))
     note("key %s", key.name);
   obey(key.order);
 }

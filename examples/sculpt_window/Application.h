@@ -194,6 +194,7 @@ private:
   Eigen::Vector2d pixel_of(const Spot& spot) const;
   void print_status() const;
   void record(const std::string& path);
+  void note_choices();
   void note(const char* format, ...);
   void note_move();
   void note_file(const char* what, const std::string& path); ///< as a comment where no script can name it

@@ -79,6 +79,8 @@ bool Application::act(const Action& action) {
     return false;
   if (background_.is_opening() || !has_status())
     return false; // what comes after an `open` is of that mesh
+  if (action.kind >= Kind::view && action.kind <= Kind::depth) // hands note theirs where they come in
+    note("%s", action.word.c_str());
   switch (action.kind) {
   case Kind::move: {
     const Eigen::Vector2d from = pixel_of(action.spot);
@@ -227,6 +229,8 @@ void Application::print_status() const {
 }
 
 void Application::record(const std::string& path) {
+  if (button_ >= 0)
+    on_release(button_); // a recording has what belongs to a press, or none of it
   if (record_ != nullptr) {
     std::fclose(record_);
     record_ = nullptr, recorded_to_.clear();
@@ -243,10 +247,30 @@ void Application::record(const std::string& path) {
     return fail_to_write("cannot write the recording '" + path + "': " + std::strerror(errno));
   std::fprintf(record_, "# sculpt_window of haptic_sculpt %s, a window of %d x %d\n", HAPTIC_SCULPT_VERSION,
                view_size_[0], view_size_[1]);
+  note_choices();
   last_recorded_ = Clock::now();
   recorded_to_ = path, has_moved_ = false;
   say("recording to " + path);
   flush_record();
+}
+
+/// What is set when a recording begins, but for the view and masks, and where the mouse is.
+void Application::note_choices() {
+  const Brush& brush = choices_.brush;
+  if (brush.radius > 0)
+    std::fprintf(record_, "brush %s %.17g %.17g\n", brush_words[static_cast<int>(brush.use)], brush.radius,
+                 brush.strength);
+  std::fprintf(record_, "tool %s\nsymmetry", tool_words[static_cast<int>(choices_.tool)]);
+  bool has_any = false;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (brush.symmetry[axis])
+      std::fprintf(record_, " %c", "xyz"[axis]), has_any = true;
+  std::fprintf(record_, "%s\ndepth %.17g\n", has_any ? "" : " none", choices_.depth);
+  if (!choices_.slides)
+    std::fputs("key t\n", record_);
+  if (brush.remeshes)
+    std::fputs("key ctrl+d\n", record_);
+  std::fprintf(record_, "move %.17g %.17g\n", mouse_.x(), mouse_.y());
 }
 
 /// Where the mouse has come to.

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <optional>
 #include <thread>
 
 namespace haptic_sculpt::window_program {
@@ -28,13 +29,19 @@ public:
   /// For tasks: what the mouse says in the tick under way.
   const Mouse_reading& reading() const { return reading_; }
 
-  explicit Loop_thread(Model* first) : model_(first), status_(status_of_first(*first)), thread_([this] { run(); }) {}
+  explicit Loop_thread(Model* first) : model_(first), status_(status_of_first(*first)) {
+    loop_.emplace(first->sculptor, first->map, parameters());
+    loop_->tool().carry_probe(false);
+    session_.emplace(*loop_, *first, &queue, &feed, first->log.journal());
+    thread_ = std::thread([this] { run(); });
+  }
   ~Loop_thread() { end(); }
   /// Lets go, and ends. What it has told is there yet.
   void end() {
     ends_ = true;
     if (thread_.joinable())
       thread_.join();
+    session_.reset(), loop_.reset(); // before the models that they work on
   }
   ///@}
 
@@ -49,6 +56,8 @@ private:
   Status status_;
   Mouse_reading reading_;
   Tick_statistics work_, lateness_;
+  std::optional<Loop> loop_; ///< made in the window's thread, where what it throws ends in order
+  std::optional<Session> session_;
   std::thread thread_; ///< last: it uses the others
 
   Status status_of_first(const Model& model) {
@@ -85,9 +94,8 @@ private:
   }
 
   void run() {
-    Loop loop(model_->sculptor, model_->map, parameters());
-    loop.tool().carry_probe(false);
-    Session session(loop, *model_, &queue, &feed, model_->log.journal());
+    Loop& loop = *loop_;
+    Session& session = *session_;
     std::uint64_t due = now();
     while (!ends_) {
       const std::uint64_t begin = now();
@@ -114,6 +122,8 @@ private:
       wait_until(due);
     }
     session.end();
+    status_.work = percentiles_of(work_), status_.lateness = percentiles_of(lateness_);
+    latest.put(status_);
   }
 
   void tick(Session& session, const Loop& loop) {

@@ -75,10 +75,11 @@ std::optional<bool> read_options(int argc, char** argv, Options& options) {
                  "Input: .off .ply .obj .stl; by default sculpt_window_ball.off, a ball that is written there");
   app.add_option("-o,--output", options.out,
                  "Where the key s saves to: .off .ply .obj .stl; by default MESH_sculpted, of the mesh that is open");
-  auto* const log =
-      app.add_option("--log", options.log,
-                     "Edit log, as of sculpt: replayed if it exists, then appended to, and kept. By default MESH.log, "
-                     "which is removed when the window is closed in order");
+  auto* const log = app.add_option(
+      "--log", options.log,
+      "Edit log, as of sculpt: replayed if it exists, then appended to, and kept. By default MESH.log, "
+      "which is removed when the window is closed with all saved, or left by its question; else the next "
+      "run goes on from it");
   app.add_flag("--no-log", options.without_log, "Keeps no log: what is not saved is lost if the program ends badly")
       ->excludes(log);
   app.add_option("--script", options.script, "Actions to be carried out, see below")->check(CLI::ExistingFile);

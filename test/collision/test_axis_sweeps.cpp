@@ -8,10 +8,11 @@
 
 #include <haptic_sculpt/collision/Axis_sweep_traits_3.h>
 
+#include <seeds_and_sizes.h>
+
 #include <boost/test/unit_test.hpp>
 #include <cfenv>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 
 using namespace haptic_sculpt;
@@ -20,11 +21,6 @@ using namespace haptic_sculpt::test;
 namespace {
 
 using Axis_traits = Axis_sweep_traits_3<Kernel, Filter_counters>;
-
-std::uint64_t number_in_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 
 /// As a line that the program `sweep_queries` reads.
 std::string line_of(const Axis_query& query) {
@@ -129,8 +125,8 @@ Axis_query any_query(std::mt19937_64& engine) {
 } // namespace
 
 BOOST_AUTO_TEST_CASE(axis_sweeps_agree_with_the_oracle) {
-  const std::uint64_t queries = number_in_environment("HAPTIC_SCULPT_AXIS_QUERIES", 30000),
-                      seed = number_in_environment("HAPTIC_SCULPT_SEED", 1);
+  const std::uint64_t queries = count_from_environment("HAPTIC_SCULPT_AXIS_QUERIES", 30000),
+                      seed = seed_from_environment(1);
   std::mt19937_64 engine(seed);
   Filter_counters counters;
   const Axis_traits traits(&counters);
@@ -147,20 +143,21 @@ BOOST_AUTO_TEST_CASE(axis_sweeps_agree_with_the_oracle) {
     if (face_answer(traits, query) != flat && ++wrong <= 10)
       BOOST_TEST_MESSAGE("WRONG, oracle says of the face " << flat << ": " << line_of(query));
   }
-  BOOST_TEST_MESSAGE("seed " << seed << ": " << queries << " queries, " << hits << " meet, " << later
-                             << " not at the start, " << degenerate << " faces degenerate, " << wrong << " wrong; "
-                             << counters.failures() << " signs past the filter, " << counters.big_integer
-                             << " by big integers");
+  BOOST_TEST_MESSAGE(queries << " queries, " << hits << " meet, " << later << " not at the start, " << degenerate
+                             << " faces degenerate, " << wrong << " wrong; " << counters.failures()
+                             << " signs past the filter, " << counters.big_integer << " by big integers");
   BOOST_TEST(wrong == 0u);
-  BOOST_TEST(hits > queries / 10);
-  BOOST_TEST(later > queries / 50);
-  BOOST_TEST(degenerate > queries / 20);
-  BOOST_TEST(counters.failures() > 0u);
+  if (queries >= 1000) {
+    BOOST_TEST(hits > queries / 10);
+    BOOST_TEST(later > queries / 50);
+    BOOST_TEST(degenerate > queries / 20);
+    BOOST_TEST(counters.failures() > 0u);
+  }
 }
 
 // The answer does not depend on which axis is which, on who comes first, nor on the direction of time.
 BOOST_AUTO_TEST_CASE(axis_sweeps_have_the_symmetries_of_the_question) {
-  std::mt19937_64 engine(7);
+  std::mt19937_64 engine(seed_from_environment(7));
   const Axis_traits traits;
   std::uint64_t wrong = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -185,7 +182,7 @@ BOOST_AUTO_TEST_CASE(axis_sweeps_have_the_symmetries_of_the_question) {
 
 BOOST_AUTO_TEST_CASE(axis_sweeps_agree_in_directed_rounding) {
   const Axis_traits traits;
-  std::mt19937_64 engine(13);
+  std::mt19937_64 engine(seed_from_environment(13));
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     std::uint64_t wrong = 0;
     for (int i = 0; i < 20000; ++i) {

@@ -4,6 +4,8 @@
 #include "collision/Sweeps_under_test.h"
 #include "oracle/hexadecimal.h"
 
+#include <seeds_and_sizes.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <cfenv>
@@ -67,8 +69,7 @@ std::optional<Kernel::FT> asked(const Counting_traits& traits, const Sweep_query
 
 BOOST_AUTO_TEST_CASE(far_motions_agree_with_the_oracle_without_integers) {
   constexpr int queries = 6000;
-  BOOST_TEST_MESSAGE("seed 71");
-  std::mt19937_64 engine(71);
+  std::mt19937_64 engine(seed_from_environment(71));
   const int before = std::fegetround();
   for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO})
     for (const Sweep_kind kind : {Sweep_kind::edge_edge, Sweep_kind::face_vertex}) {

@@ -2,6 +2,8 @@
 // Fixed-width integers and the doubles they come from, against GMP.
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 
+#include <seeds_and_sizes.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <gmpxx.h>
@@ -64,7 +66,7 @@ void check_sum(std::mt19937_64& generator) {
 } // namespace
 
 BOOST_AUTO_TEST_CASE(fixed_integers_compute_as_gmp_does) {
-  std::mt19937_64 generator(20241);
+  std::mt19937_64 generator(haptic_sculpt::test::seed_from_environment(20241));
   for (int i = 0; i < 2000; ++i) {
     check_product<1, 1>(generator);
     check_product<2, 1>(generator);
@@ -83,7 +85,7 @@ BOOST_AUTO_TEST_CASE(fixed_integers_compute_as_gmp_does) {
 }
 
 BOOST_AUTO_TEST_CASE(a_split_double_is_the_double) {
-  std::mt19937_64 generator(20242);
+  std::mt19937_64 generator(haptic_sculpt::test::seed_from_environment(20242));
   using limits = std::numeric_limits<double>;
   std::vector<double> values = {0.0,
                                 -0.0,

@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(a_lost_mode_is_said_to_be_lost) {
 }
 
 /// The sign of the determinant of the closure's derivative, by differences.
-bool is_on_home_sheet(const internal::Platform_closure<double>& closure, const Vector& phi) {
+bool is_on_positive_sheet(const internal::Platform_closure<double>& closure, const Vector& phi) {
   Device_matrix<double> derivative;
   for (int j = 0; j < 3; ++j) {
     const Vector step = 1e-6 * Vector::Unit(j);
@@ -129,10 +129,37 @@ bool is_on_home_sheet(const internal::Platform_closure<double>& closure, const V
   return derivative.determinant() > 0;
 }
 
+/// The same of the symmetric pose at the mean angle; where the links do not close there, of one with longer links.
+bool is_home_positive(const Device_parameters<double>& parameters, const Vector& theta) {
+  Device_pose<double> pose;
+  internal::place_elbows(parameters, Vector::Constant(theta.mean()).eval(), pose);
+  Link_angles<double> x;
+  if (!internal::symmetric_home(parameters, theta.mean(), x))
+    return parameters.base_radius() + parameters.primary_length() * std::cos(theta.mean()) > 0;
+  return is_on_positive_sheet({parameters, pose.elbows}, x.angles());
+}
+
+// Where the elbows stand crosswise the home sheet is the other one, and its platform is above them as well.
+BOOST_AUTO_TEST_CASE(with_crosswise_elbows_the_platform_stays_above_them) {
+  auto description = named_design<double>(Named_design::D1, Device_form::general);
+  description.base_radius = 0.03, description.primary_length = 0.09;
+  description.secondary_length = 0.06, description.platform_radius = 0.02;
+  const Device_parameters<double> parameters(description);
+  const Vector theta(2.1, 1.54, 2.41);
+  BOOST_REQUIRE((forward_kinematics(parameters, theta).status() == Device_status::undecided));
+  const auto pose = forward_by_all_modes(parameters, theta);
+  BOOST_REQUIRE(static_cast<bool>(pose));
+  const Vector normal = (pose->elbows.col(1) - pose->elbows.col(0)).cross(pose->elbows.col(2) - pose->elbows.col(0));
+  const double height = std::abs(normal.normalized().dot(pose->position - pose->elbows.col(0)));
+  BOOST_TEST(height > 0.038);
+  BOOST_TEST(height < 0.0382);
+}
+
 BOOST_AUTO_TEST_CASE(what_is_undecided_is_decided_by_all_modes) {
   BOOST_TEST_MESSAGE("seed " << seed + 4);
   Random random(seed + 4);
   int straight = 0, decided = 0, none = 0, again = 0, twins = 0; // twins: the other mode about a fold
+  int crosswise = 0;                                             // beyond the elbows' meeting in the middle
   for (int k = 0; k < 20000; ++k) {
     const Device_parameters<double> parameters(k % 2 ? random_design(random, Device_form::general)
                                                      : named_design<double>(Named_design::D2, Device_form::general));
@@ -150,10 +177,12 @@ BOOST_AUTO_TEST_CASE(what_is_undecided_is_decided_by_all_modes) {
     const internal::Platform_closure<double> closure(parameters, pose.elbows);
     const auto modes = assembly_modes(parameters, theta);
     BOOST_REQUIRE(static_cast<bool>(modes));
+    const bool is_positive = is_home_positive(parameters, theta);
+    crosswise += best && !is_positive;
     int at_home = 0;
     for (int m = 0; m < modes->count; ++m) {
       const Vector phi = modes->modes[m].angles();
-      at_home += is_on_home_sheet(closure, phi);
+      at_home += is_on_positive_sheet(closure, phi) == is_positive;
       const auto there = forward_by_all_modes<double>(parameters, theta, phi); // a mode is the one nearest to itself
       BOOST_REQUIRE(static_cast<bool>(there));
       BOOST_TEST(residual(parameters, *there) < 1e-9);
@@ -163,17 +192,18 @@ BOOST_AUTO_TEST_CASE(what_is_undecided_is_decided_by_all_modes) {
     if (best) {
       ++decided;
       BOOST_TEST(residual(parameters, *best) < 1e-9);
-      BOOST_TEST((at_home > 0 && is_on_home_sheet(closure, best->phi())));
+      BOOST_TEST((at_home > 0 && is_on_positive_sheet(closure, best->phi()) == is_positive));
     } else {
       ++none;
       BOOST_TEST((best.status() == Device_status::no_real_mode && best.shortfall() > 0));
       BOOST_TEST(at_home == 0);
     }
   }
-  BOOST_TEST_MESSAGE(straight << " straight, " << decided << " by all modes, " << none << " none; " << again
+  BOOST_TEST_MESSAGE(straight << " straight, " << decided << " by all modes, " << crosswise
+                              << " of them with crosswise elbows, " << none << " none; " << again
                               << " modes found again, " << twins << " twins");
   BOOST_TEST(twins * 1000 < again);
-  BOOST_TEST((straight > 5000 && decided > 500 && none > 1000));
+  BOOST_TEST((straight > 5000 && decided > 500 && none > 1000 && crosswise > 5));
 }
 
 namespace {
@@ -208,14 +238,14 @@ double distance_of(const Vector& a, const Vector& b) {
 
 /// The least part of a way at which the sheet has changed.
 double part_to_the_fold(const internal::Platform_closure<double>& closure, const Vector& start, const Vector& way) {
-  const bool home = is_on_home_sheet(closure, start);
+  const bool home = is_on_positive_sheet(closure, start);
   double low = 0, high = 1;
   for (int k = 1; k <= 200 && high == 1; ++k)
-    if (is_on_home_sheet(closure, start + k / 200.0 * way) != home)
+    if (is_on_positive_sheet(closure, start + k / 200.0 * way) != home)
       low = (k - 1) / 200.0, high = k / 200.0;
   for (int k = 0; k < 40; ++k) {
     const double middle = (low + high) / 2;
-    (is_on_home_sheet(closure, start + middle * way) == home ? low : high) = middle;
+    (is_on_positive_sheet(closure, start + middle * way) == home ? low : high) = middle;
   }
   return low;
 }
@@ -263,7 +293,9 @@ BOOST_AUTO_TEST_CASE(of_a_far_seed_the_nearest_mode_is_found_but_for_a_twin_abou
     Device_pose<double> pose;
     internal::place_elbows(parameters, theta, pose);
     const internal::Platform_closure<double> closure(parameters, pose.elbows);
-    BOOST_TEST((is_on_home_sheet(closure, found->phi()) && !is_on_home_sheet(closure, best)));
+    const bool is_positive = is_home_positive(parameters, theta);
+    BOOST_TEST(is_on_positive_sheet(closure, found->phi()) == is_positive);
+    BOOST_TEST(is_on_positive_sheet(closure, best) != is_positive);
     BOOST_TEST(distance_of(found->phi(), best) < distance_of(best, phi));
     BOOST_TEST(merge(closure, best, found->phi()));
   }
@@ -278,8 +310,11 @@ BOOST_AUTO_TEST_CASE(about_a_fold_the_home_sheet_is_taken_unless_the_seed_is_clo
   for (int k = 0; k < 600; ++k) {
     const double half = std::pow(10.0, -2 - 2 * (k % 3)); // of the way between the two, rad
     const Device_parameters<double> parameters(random_design(random, Device_form::general));
+    const Vector theta = random_angles(random, 0.3, 1.8);
+    const internal::Home_sheet<double> sheet(parameters, theta.mean());
+    const bool is_positive = is_home_positive(parameters, theta);
     Device_pose<double> pose;
-    internal::place_elbows(parameters, random_angles(random, 0.3, 1.8), pose);
+    internal::place_elbows(parameters, theta, pose);
     internal::Platform_closure<double> closure(parameters, pose.elbows);
     const Vector start = random_vector(random, 3), way = random_vector(random, 3);
     const double part = part_to_the_fold(closure, start, way);
@@ -296,9 +331,10 @@ BOOST_AUTO_TEST_CASE(about_a_fold_the_home_sheet_is_taken_unless_the_seed_is_clo
     const Vector one = fold + half * null;
     closure.separation_squared += closure.residual(Link_angles<double>::from(one));
     const Vector other = by_newton(closure, fold - half * null);
-    const bool one_at_home = is_on_home_sheet(closure, one);
+    const bool one_at_home = is_on_positive_sheet(closure, one) == is_positive;
     if (!(distance_of(other, fold - half * null) < 0.2 * half) ||
-        is_on_home_sheet(closure, other) == one_at_home) // no plain fold, or further ones beside it
+        (is_on_positive_sheet(closure, other) == is_positive) ==
+            one_at_home) // no plain fold, or further ones beside it
       continue;
     const auto modes = internal::assembly_modes(closure);
     BOOST_REQUIRE(static_cast<bool>(modes));
@@ -311,7 +347,8 @@ BOOST_AUTO_TEST_CASE(about_a_fold_the_home_sheet_is_taken_unless_the_seed_is_clo
     const Vector home = one_at_home ? one : other, away = one_at_home ? other : one, outward = away - home;
     for (const double distance : {0.2, 5.0}) {
       Link_angles<double> x;
-      BOOST_REQUIRE(internal::nearest_mode(closure, *modes, Link_angles<double>::from(away + distance * outward), x));
+      const auto seed_angles = Link_angles<double>::from(away + distance * outward);
+      BOOST_REQUIRE(internal::nearest_mode(closure, sheet, *modes, seed_angles, x));
       BOOST_TEST(distance_of(x.angles(), distance < 1 ? away : home) < 0.1 * half);
     }
   }

@@ -181,7 +181,7 @@ before_panel = len(lines_of(log))
 hand.move(30, 52)
 time.sleep(0.4)  # the panel takes the mouse, or lets go of it, with the next frame
 hand.click()
-eventually(lambda: any(line.startswith("tool ") for line in lines_of(record)), "a tool is chosen by its button")
+eventually(lambda: "tool probe" in lines_of(record), "a tool is chosen by its button")
 check(len(lines_of(log)) == before_panel, "a click on a panel edits nothing")
 hand.move(SIZE[0] - 20, SIZE[1] - 20)
 time.sleep(0.4)

@@ -92,9 +92,16 @@ private:
     return std::to_string(below(30) == 0 ? random_() : below(below(3) == 0 ? 12 : 5));
   }
   std::string point() { return ' ' + number() + ' ' + number() + ' ' + number(); }
+  /// On the mesh, or not far from it.
+  std::string near_point() {
+    std::string text;
+    for (int k = 0; k < 3; ++k)
+      text += ' ' + std::to_string(0x1p-63 * static_cast<double>(random_() >> 1) - 0.5);
+    return text;
+  }
 
   std::string line() {
-    switch (below(22)) {
+    switch (below(25)) {
     case 0:
       return "insert_face " + index() + ' ' + index() + ' ' + index() + point();
     case 1:
@@ -133,6 +140,13 @@ private:
     }
     case 15:
       return "move " + index() + point();
+    case 16: {
+      static constexpr std::array<const char*, 5> kinds = {"grab", "inflate", "smooth", "flatten", "pinch"};
+      const std::string direction = below(2) ? near_point() : "";
+      return std::string("brush ") + any_of(kinds) + near_point() + ' ' + length() + ' ' + length() + direction;
+    }
+    case 17: // of shorter edges some take minutes
+      return "remesh " + std::to_string(0.2 + 0x1p-63 * static_cast<double>(random_() >> 1));
     default:
       return "drag " + index() + point();
     }

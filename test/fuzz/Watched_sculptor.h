@@ -13,6 +13,8 @@
 
 #include <haptic_sculpt/sculpting.h>
 
+#include <algorithm>
+#include <array>
 #include <cfenv>
 #include <cmath>
 #include <cstdio>
@@ -201,13 +203,24 @@ private:
   struct Seen {
     test::Mesh_snapshot mesh;
     std::map<std::size_t, double> heat;
-    bool operator==(const Seen& other) const { return mesh == other.mesh && heat == other.heat; }
+    std::map<std::array<std::size_t, 3>, std::int64_t> labels; ///< by the numbers of the corners, the least first
+    bool operator==(const Seen& other) const {
+      return mesh == other.mesh && heat == other.heat && labels == other.labels;
+    }
   };
 
   Seen seen() const {
-    Seen all{test::snapshot(sculptor_), {}};
+    Seen all{test::snapshot(sculptor_), {}, {}};
     for (const auto v : mesh_.vertices())
       all.heat[sculptor_.id(v)] = heat_[v];
+    for (const auto f : mesh_.faces()) {
+      const auto corners = internal::corners_of_face(mesh_, f);
+      std::array<std::size_t, 3> numbers;
+      for (std::size_t k = 0; k < 3; ++k)
+        numbers[k] = sculptor_.id(corners[k]);
+      std::rotate(numbers.begin(), std::min_element(numbers.begin(), numbers.end()), numbers.end());
+      all.labels[numbers] = label_[f];
+    }
     return all;
   }
 

@@ -25,7 +25,7 @@ using namespace haptic_sculpt;
 using namespace haptic_sculpt::sculpt_program;
 
 const std::string any_hash(64, 'a');
-std::size_t carried_out = 0, not_parsed = 0;
+std::size_t carried_out = 0, not_parsed = 0, too_long = 0, replayed = 0, dabs = 0, remeshings = 0;
 
 [[noreturn]] void fault(const std::string& what, const std::string& script) {
   std::fprintf(stderr, "FAULT: %s\nscript (%zu bytes):\n%s\n", what.c_str(), script.size(), script.c_str());
@@ -98,13 +98,20 @@ void check_change(std::string log, std::size_t at, unsigned char by, const std::
 
 /// A remeshing to short edges of what was drawn far out takes minutes, which finds nothing more.
 bool takes_long(const std::vector<Command>& commands) {
-  const auto is = [&](const auto& condition) { return std::any_of(commands.begin(), commands.end(), condition); };
-  return is([](const Command& c) { return c.kind == Command::Kind::remesh && c.length < 0.2; }) ||
-         (is([](const Command& c) { return c.kind == Command::Kind::remesh; }) && is([](const Command& c) {
-            const auto is_far = [](const auto& p) { return std::hypot(p[0], p[1], p[2]) > 4; };
-            return std::abs(c.strength) > 4 || is_far(c.edit.point) ||
-                   std::any_of(c.points.begin(), c.points.end(), is_far);
-          }));
+  bool remeshes = false, is_far = false;
+  double moved = 0; // dabs and moves add up
+  const auto look_at = [&](const std::array<double, 3>& p) { is_far = is_far || std::hypot(p[0], p[1], p[2]) > 4; };
+  for (const Command& c : commands) {
+    remeshes = remeshes || c.kind == Command::Kind::remesh;
+    is_far = is_far || (c.kind == Command::Kind::remesh && c.length < 0.2);
+    look_at(c.edit.point);
+    std::for_each(c.points.begin(), c.points.end(), look_at);
+    for (const auto& way : c.edit.ways)
+      is_far = is_far || std::abs(way.second) > 4;
+    moved += std::abs(c.strength) +
+             (c.kind == Command::Kind::move ? std::hypot(c.edit.point[0], c.edit.point[1], c.edit.point[2]) : 0);
+  }
+  return remeshes && (is_far || !(moved <= 4));
 }
 
 } // namespace
@@ -123,8 +130,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ++not_parsed;
     return 0;
   }
-  if (commands.empty() || commands.size() > 40 || takes_long(commands))
+  if (commands.empty() || commands.size() > 40 || takes_long(commands)) {
+    ++too_long;
     return 0;
+  }
 
   Settings settings;
   settings.response = settings_choice % 4 == 1 ? "stop" : settings_choice % 4 == 2 ? "paper" : "slide";
@@ -147,11 +156,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool is_done = carry_out(mesh, commands, parameters, [&](const Command& command) {
     log += writer.command(command, command.line);
     ++told;
+    dabs += command.kind == Command::Kind::brush;
+    remeshings += command.kind == Command::Kind::remesh;
   });
   if (const Validity_report report = validate(mesh); !report.is_valid())
     fault("the mesh is no longer valid: " + report.message(), script);
-  if (is_done)
+  if (is_done) {
     check_log(log, mesh, choice, told, script);
+    ++replayed;
+  }
   check_change(log, data[2] * std::size_t(256) + data[3], static_cast<unsigned char>(data[2] ^ (data[3] << 4)), script);
   return 0;
 }
@@ -161,5 +174,8 @@ std::string fuzz_input(std::mt19937_64& random) {
 }
 
 std::string fuzz_summary() {
-  return std::to_string(carried_out) + " scripts carried out, " + std::to_string(not_parsed) + " refused";
+  return std::to_string(carried_out) + " scripts carried out, " + std::to_string(replayed) +
+         " logs of them replayed, with " + std::to_string(dabs) + " dabs and " + std::to_string(remeshings) +
+         " remeshings; " + std::to_string(not_parsed) + " refused, " + std::to_string(too_long) +
+         " empty or left out as too long";
 }

@@ -66,6 +66,14 @@ struct Contact_outcome {
   Loop_fault fault = Loop_fault::none;
 };
 
+/// The less and the greater of two; none where one is no number, which std::fmin() and std::fmax() would leave out.
+inline double less_of(double a, double b) {
+  return std::isnan(a) ? a : std::isnan(b) ? b : std::fmin(a, b);
+}
+inline double greater_of(double a, double b) {
+  return -less_of(-a, -b);
+}
+
 /// Until `seconds` of contact have been, or three times as long has passed.
 /// \param each called after every tick with the handle; returns false to end
 template <class Each>
@@ -90,7 +98,7 @@ Contact_outcome run_contact(Contact_setup setup, double seconds, const Each& eac
     outcome.has_left = conditioning.greatest > setup.greatest || conditioning.condition > setup.most_condition;
     if (outcome.has_left)
       break;
-    outcome.observer_error = std::fmax(outcome.observer_error, std::abs(observer.port() - simulated.port()));
+    outcome.observer_error = greater_of(outcome.observer_error, std::abs(observer.port() - simulated.port()));
     const double depth = -setup.normal.dot(handle.position() - setup.on_plane);
     const bool reached = depth <= 0;
     touch.is_free = reached, touch.way = std::fmax(0, depth) * setup.normal;
@@ -104,7 +112,7 @@ Contact_outcome run_contact(Contact_setup setup, double seconds, const Each& eac
       const double true_depth = -setup.normal.dot(simulated.state().pose.position - setup.on_plane);
       const double off = (rendered.force - setup.coupling.stiffness * std::fmax(0, true_depth) * setup.normal -
                           setup.coupling.damping_force(touch.span, loop.side().velocity(), false)).norm();
-      outcome.off += off, outcome.most_off = std::fmax(outcome.most_off, off);
+      outcome.off += off, outcome.most_off = greater_of(outcome.most_off, off);
     }
     limited += (rendered.force - loop.wanted()).norm() > 1e-9 * (1 + loop.wanted().norm());
     if (simulated.write(rendered.torque, rendered.interaction_torque) != Device_status::success) {
@@ -113,10 +121,10 @@ Contact_outcome run_contact(Contact_setup setup, double seconds, const Each& eac
     }
     outcome.time = simulated.time();
     outcome.ticks += !reached, outcome.contact += reached ? 0 : setup.tick;
-    outcome.least = std::fmin(outcome.least, simulated.port() + simulated.dissipated());
-    outcome.least_port = std::fmin(outcome.least_port, simulated.port());
-    outcome.largest_port = std::fmax(outcome.largest_port, std::abs(simulated.port()));
-    outcome.largest_force = std::fmax(outcome.largest_force, rendered.force.norm());
+    outcome.least = less_of(outcome.least, simulated.port() + simulated.dissipated());
+    outcome.least_port = less_of(outcome.least_port, simulated.port());
+    outcome.largest_port = greater_of(outcome.largest_port, std::abs(simulated.port()));
+    outcome.largest_force = greater_of(outcome.largest_force, rendered.force.norm());
     if (!each(simulated, handle, rendered))
       break;
   }

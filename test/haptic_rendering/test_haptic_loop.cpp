@@ -8,6 +8,8 @@
 
 #include <CGAL/Side_of_triangle_mesh.h>
 
+#include <seeds_and_sizes.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
@@ -34,7 +36,7 @@ struct Cavity {
 };
 
 BOOST_AUTO_TEST_CASE(the_static_force_is_that_of_planes_concave_edges_and_corners) {
-  Random random(1);
+  Random random(haptic_sculpt::test::seed_from_environment(1));
   std::uniform_real_distribution<double> inside(0.05, 0.95), beyond(0.01, 0.4);
   const Virtual_coupling coupling{700, 0};
   double worst = 0, largest_jump = 0;
@@ -78,11 +80,11 @@ BOOST_AUTO_TEST_CASE(the_static_force_is_that_of_planes_concave_edges_and_corner
                                                     << largest_jump);
   BOOST_TEST(worst <= 1e-9);
   for (const std::size_t n : blocked)
-    BOOST_TEST(n >= 10u);
+    BOOST_TEST(n >= 4u); // of 200, an eighth for two of them
 }
 
 BOOST_AUTO_TEST_CASE(a_vertex_let_go_of_in_a_thin_pit_leaves_the_probe_outside) {
-  Random random(4);
+  Random random(haptic_sculpt::test::seed_from_environment(4));
   std::uniform_real_distribution<double> number(-0.5, 0.5);
   for (int round = 0; round < 6; ++round) {
     Mesh mesh = meshes::to_mesh(meshes::icosphere(5));

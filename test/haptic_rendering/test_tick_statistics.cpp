@@ -3,6 +3,8 @@
 
 #include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
 
+#include <seeds_and_sizes.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
@@ -15,7 +17,7 @@ using namespace haptic_rendering_tests;
 namespace {
 
 BOOST_AUTO_TEST_CASE(percentiles_against_a_sorted_list) {
-  Random random(8);
+  Random random(haptic_sculpt::test::seed_from_environment(8));
   for (int round = 0; round < 20; ++round) {
     Tick_statistics statistics;
     std::vector<std::uint64_t> all;

@@ -6,6 +6,8 @@
 
 #include <haptic_sculpt/haptic_rendering.h>
 
+#include <seeds_and_sizes.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <random>
@@ -51,7 +53,7 @@ struct Snap_bench {
 const Vertex_snap snap_of_tests{0.004, 0.2};
 
 BOOST_AUTO_TEST_CASE(the_force_is_bounded_and_the_slope_of_a_potential) {
-  std::mt19937_64 random(21);
+  std::mt19937_64 random(haptic_sculpt::test::seed_from_environment(21));
   std::uniform_real_distribution<double> uniform(-1, 1);
   const Snap_bench b(snap_of_tests);
   constexpr double h = 1e-7; // m
@@ -87,7 +89,7 @@ BOOST_AUTO_TEST_CASE(the_force_is_bounded_and_the_slope_of_a_potential) {
 }
 
 BOOST_AUTO_TEST_CASE(on_any_way_it_gives_no_more_than_a_spring_of_its_stiffness) {
-  std::mt19937_64 random(22);
+  std::mt19937_64 random(haptic_sculpt::test::seed_from_environment(22));
   std::uniform_real_distribution<double> uniform(-1, 1);
   double most = -1, most_force = 0, bare = 0;
   for (int run = 0; run < 20; ++run) {
@@ -118,8 +120,7 @@ BOOST_AUTO_TEST_CASE(on_any_way_it_gives_no_more_than_a_spring_of_its_stiffness)
       }
     }
   }
-  BOOST_TEST_MESSAGE("seed 22: beyond a spring's at most " << 1e6 * most << " uJ, force at most " << most_force
-                                                           << " N");
+  BOOST_TEST_MESSAGE("beyond a spring's at most " << 1e6 * most << " uJ, force at most " << most_force << " N");
   BOOST_TEST(most_force > 0.5 * snap_of_tests.force);
   BOOST_TEST(bare > 1e-8);  // J; what the friction of a device is for
   BOOST_TEST(most <= 1e-6); // J; where the nearest vertex changes, the slew limit turns the force within two ticks

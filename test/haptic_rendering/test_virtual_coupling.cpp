@@ -6,6 +6,8 @@
 #include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
 #include <haptic_sculpt/device/simulation/Torque_delay.h>
 
+#include <seeds_and_sizes.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <Eigen/SVD>
@@ -19,7 +21,7 @@ using namespace haptic_rendering_tests;
 namespace {
 
 BOOST_AUTO_TEST_CASE(damping_acts_along_pushes_only_and_only_while_held) {
-  Random random(2);
+  Random random(haptic_sculpt::test::seed_from_environment(2));
   const Virtual_coupling coupling{1000, 2};
   for (int i = 0; i < 1000; ++i) {
     const Vector3d v = random_vector(random), n = random_vector(random).normalized(),
@@ -80,7 +82,7 @@ BOOST_AUTO_TEST_CASE(the_force_that_is_held_lags_by_no_more_than_the_rate_explai
 }
 
 BOOST_AUTO_TEST_CASE(the_part_of_a_vector_in_a_span_is_the_nearest_combination_of_the_normals) {
-  Random random(61);
+  Random random(haptic_sculpt::test::seed_from_environment(61));
   for (int i = 0; i < 300; ++i) {
     const int normals = 1 + i % 4;
     Contact_span span;

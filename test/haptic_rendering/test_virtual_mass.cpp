@@ -117,6 +117,31 @@ BOOST_AUTO_TEST_CASE(a_virtual_mass_is_the_same_on_a_device_of_pose_and_force) {
   BOOST_TEST(worst <= 0.01 * parameters.virtual_mass.mass * amplitude * omega * omega);
 }
 
+// What a hand has put into it comes back when it brakes, and is no energy of the device's own.
+BOOST_AUTO_TEST_CASE(a_heavy_virtual_mass_that_may_be_asked_for_ends_no_run) {
+  Pose_loop_parameters parameters(0.5);
+  parameters.device.mass = 1;
+  parameters.virtual_mass.mass = 0.5;
+  BOOST_REQUIRE(parameters.virtual_mass.mass <= parameters.largest_mass());
+  const Haptic_parameters all = parameters.checked();
+  Interaction<Pose_side> loop(Pose_side(parameters.device, all), all, 0);
+  double x = 0, held = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const double t = std::fmod(k * all.tick, 0.6), speed = std::fmax(0, 0.8 * (1 - std::abs(t - 0.3) / 0.15)); // m/s
+    x += speed * all.tick;
+    Pose_reading reading;
+    reading.position = Vector3d(x, 0, 0), reading.elapsed = all.tick;
+    BOOST_REQUIRE(loop.follow(reading));
+    Touch touch;
+    touch.holds = true;
+    loop.render(touch), loop.end_tick();
+    held = std::max(held, loop.virtual_mass().held_energy(loop.side().velocity()));
+  }
+  BOOST_TEST((loop.fault() == Loop_fault::none));
+  BOOST_TEST(held > 0.14);
+  BOOST_TEST(held < 0.17);
+}
+
 BOOST_AUTO_TEST_CASE(after_a_fault_a_virtual_mass_comes_back_as_slowly_as_at_a_start) {
   const double omega = 2 * M_PI * 2, amplitude = 0.004;
   Pose_loop_parameters parameters(5);

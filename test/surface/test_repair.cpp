@@ -233,7 +233,7 @@ BOOST_AUTO_TEST_CASE(meshes_are_repaired_in_place) {
   mesh.add_property_map<Mesh::Vertex_index, int>("v:mine", 7);
   BOOST_TEST(count_of(repair(mesh), Repair_kind::orient_solids, "components turned") == 1u);
   BOOST_TEST(validate(mesh).inside_out_components.empty());
-  BOOST_TEST((mesh.property_map<Mesh::Vertex_index, int>("v:mine").second));
+  BOOST_TEST((haptic_sculpt::find_property_map<Mesh::Vertex_index, int>(mesh, "v:mine").has_value()));
   // Not in place, for it cannot be repaired.
   Mesh open = meshes::to_mesh(meshes::ball_with_a_hole());
   const Mesh before = open;

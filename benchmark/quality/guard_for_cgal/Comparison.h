@@ -12,6 +12,7 @@
 #include <ctime>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,7 @@ struct Comparison {
   std::string mesh, function, way; ///< way: how the guard comes in: "map", "functor", "targets" or "remesher"
   Outcome plain, guarded;
   double set_up = 0; ///< seconds to make the Sculptor
-  double share = 1;  ///< of the way asked for that was made; not known of functors
+  std::optional<double> share; ///< of the way asked for that was made; known of maps and targets
   std::size_t asked = 0, refused = 0;
   std::size_t drags = 0; ///< of targets
   bool out_of_work = false;
@@ -57,8 +58,8 @@ struct Comparison {
   bool has_to_arrive = false; ///< all vertices, to the bit: the motion is rigid, and its end exact
 
   bool is_kept() const {
-    return guarded.pairs == 0 && guarded.is_valid && undone_to_the_bit && redone_to_the_bit &&
-           (!has_to_arrive || refused == 0 || out_of_work);
+    return guarded.pairs == 0 && guarded.is_valid && (plain.failed || !guarded.failed) && undone_to_the_bit &&
+           redone_to_the_bit && (!has_to_arrive || refused == 0 || out_of_work);
   }
 };
 

@@ -60,8 +60,8 @@ std::vector<Named_mesh> of_folder(const Options& options) {
 
 void print(const Comparison& c) {
   char share[16] = "";
-  if (c.way != "functor")
-    std::snprintf(share, sizeof share, "%.1f", 100 * c.share);
+  if (c.share)
+    std::snprintf(share, sizeof share, "%.1f", 100 * *c.share);
   std::printf("| %s | %s | %s | %zu | %zu | %s | %.2g / %.2g | %.1f / %.1f | %.2f / %.2f | %.3f | %.1f%s |\n",
               c.mesh.c_str(), c.function.c_str(), c.way.c_str(), c.plain.pairs, c.guarded.pairs, share,
               c.plain.least_angle, c.guarded.least_angle, c.plain.mean_least_angle, c.guarded.mean_least_angle,

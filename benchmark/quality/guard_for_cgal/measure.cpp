@@ -93,7 +93,7 @@ Json to_json(const Comparison& c) {
   return {{"mesh", c.mesh},
           {"function", c.function},
           {"way", c.way},
-          {"share", c.share},
+          {"share", c.share ? Json(*c.share) : Json()},
           {"asked", c.asked},
           {"refused", c.refused},
           {"drags", c.drags},

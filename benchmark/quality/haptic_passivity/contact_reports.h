@@ -14,30 +14,36 @@ namespace haptic_sculpt::passivity_benchmark {
 /// Of port plus physical dissipation, J: rounding of some hundred million ticks.
 constexpr double energy_bound = -1e-9;
 
+/// Whether an energy is below a bound; one that is no number is.
+inline bool is_below(double energy, double bound) {
+  return !(energy >= bound);
+}
+
 /// Runs of which the outcomes are added up.
 struct Sum {
-  int runs = 0, left = 0, faults = 0;
+  int runs = 0, left = 0, faults = 0, without_contact = 0;
   std::size_t ticks = 0;
   double contact = 0, least = 0, least_port = 0, largest_port = 0, observer_error = 0, observer_error_whole = 0,
          least_observed = 0, mass_energy = 0, largest_force = 0, limited = 0, off = 0, most_off = 0;
   int active = 0, alarms = 0, false_alarms = 0;
 
   void add(const Contact_setup& setup, const Contact_outcome& o) {
-    ++runs, left += o.has_left, faults += o.fault != Loop_fault::none;
-    ticks += o.ticks, contact += o.contact, active += o.least < energy_bound;
-    alarms += o.least_observed < 0, false_alarms += o.least_observed < 0 && o.least >= energy_bound;
-    least = std::fmin(least, o.least), least_port = std::fmin(least_port, o.least_port);
-    largest_port = std::fmax(largest_port, o.largest_port);
+    ++runs, left += o.has_left, faults += o.fault != Loop_fault::none, without_contact += o.ticks == 0;
+    ticks += o.ticks, contact += o.contact, active += is_below(o.least, energy_bound);
+    alarms += o.least_observed < 0, false_alarms += o.least_observed < 0 && !is_below(o.least, energy_bound);
+    least = less_of(least, o.least), least_port = less_of(least_port, o.least_port);
+    largest_port = greater_of(largest_port, o.largest_port);
     double& error = setup.delay == std::floor(setup.delay) ? observer_error_whole : observer_error;
-    error = std::fmax(error, o.observer_error);
-    least_observed = std::fmin(least_observed, o.least_observed);
-    mass_energy += o.mass_energy, largest_force = std::fmax(largest_force, o.largest_force);
-    limited += o.limited, off += o.off, most_off = std::fmax(most_off, o.most_off);
+    error = greater_of(error, o.observer_error);
+    least_observed = less_of(least_observed, o.least_observed);
+    mass_energy += o.mass_energy, largest_force = greater_of(largest_force, o.largest_force);
+    limited += o.limited, off += o.off, most_off = greater_of(most_off, o.most_off);
   }
   Json json() const {
     return {{"runs", runs},
             {"left_region", left},
             {"faults", faults},
+            {"runs_without_contact", without_contact},
             {"ticks_in_contact", ticks},
             {"seconds_in_contact", contact},
             {"active_runs", active},
@@ -69,6 +75,7 @@ inline void make_as_it_ships(Contact_setup& setup) {
 /// that ships.
 inline Json passivity(const Options& options) {
   Sum sum, shipped;
+  std::size_t active = 0;
   Json failures = Json::array();
   for (int run = options.first; run < options.first + options.runs; ++run) {
     const std::uint64_t seed = options.seed * 1000003 + run;
@@ -80,10 +87,13 @@ inline Json passivity(const Options& options) {
       make_as_it_ships(setup);
     const Contact_outcome outcome = run_contact(setup, options.seconds);
     (is_shipped ? shipped : sum).add(setup, outcome);
-    if (outcome.least < (is_shipped ? energy_bound_as_shipped : energy_bound))
+    const bool is_active = is_below(outcome.least, is_shipped ? energy_bound_as_shipped : energy_bound);
+    active += is_active;
+    if (is_active || outcome.fault != Loop_fault::none)
       failures.push_back({{"seed", seed},
                           {"form", run % 2 == 0 ? "ditetrahedral" : "general"},
                           {"least_J", outcome.least},
+                          {"fault", name_of(outcome.fault)},
                           {"tick_s", setup.tick},
                           {"delay", setup.delay},
                           {"stiffness", setup.coupling.stiffness},
@@ -93,7 +103,7 @@ inline Json passivity(const Options& options) {
   }
   Json report = sum.json();
   report["as_shipped"] = shipped.json();
-  report["active_runs"] = failures.size();
+  report["active_runs"] = active;
   report["failures"] = failures;
   std::printf("as it ships: %d runs, %zu ticks in contact; least port + dissipation %.3g J, faults %d\n", shipped.runs,
               shipped.ticks, shipped.least, shipped.faults);
@@ -181,16 +191,16 @@ inline Json knocks(const Options& options) {
     k.wait = draw.chance(0.2) ? 0 : 0.35; // while the ramp is under way, and after it
     const Knock_outcome o = run_knock(knock(devices[run % 2], k), k.wait);
     const bool swings = hand == 2; // on its own arm, for a second
-    const bool is_restless = !swings && o.ripple > largest_restlessness;
+    const bool is_restless = !swings && !(o.ripple <= largest_restlessness);
     Json& row = rows[static_cast<std::size_t>(2 * hand + run % 2)];
     row["runs"] = row["runs"].get<int>() + 1;
-    row["least_energy_J"] = std::fmin(row["least_energy_J"].get<double>(), o.run.least);
-    row["ripple_N"] = std::fmax(row["ripple_N"].get<double>(), o.ripple);
-    least = std::fmin(least, o.run.least);
-    (swings ? swinging_ripple : ripple) = std::fmax(swings ? swinging_ripple : ripple, o.ripple);
+    row["least_energy_J"] = less_of(row["least_energy_J"].get<double>(), o.run.least);
+    row["ripple_N"] = greater_of(row["ripple_N"].get<double>(), o.ripple);
+    least = less_of(least, o.run.least);
+    (swings ? swinging_ripple : ripple) = greater_of(swings ? swinging_ripple : ripple, o.ripple);
     faults += o.run.fault != Loop_fault::none, restless += is_restless;
-    active += o.run.least < energy_bound_as_shipped;
-    if (is_restless || o.run.least < energy_bound_as_shipped || o.run.fault != Loop_fault::none)
+    active += is_below(o.run.least, energy_bound_as_shipped);
+    if (is_restless || is_below(o.run.least, energy_bound_as_shipped) || o.run.fault != Loop_fault::none)
       failures.push_back({{"seed", seed},
                           {"form", run % 2},
                           {"hand", hand},

@@ -29,9 +29,15 @@ struct Bounds {
 
 Bounds bounds(const Json& report) {
   Bounds found;
-  if (report.contains("passive"))
+  if (report.contains("passive")) {
     found.add(report["passive"]["active_runs"] == 0,
               "a run within the passive limit was given energy; its seed is in the report");
+    for (const Json& sum : {report["passive"], report["passive"]["as_shipped"]}) {
+      found.add(sum["faults"] == 0, "a run within the passive limit ended as a fault; its seed is in the report");
+      found.add(sum["runs"] == 0 || sum["ticks_in_contact"] > 0,
+                "no run within the passive limit has touched anything, which says nothing of energy");
+    }
+  }
   if (report.contains("knocks"))
     found.add(report["knocks"]["failures"].empty(),
               "a knock gave energy, was not calm after half a second, or ended as a fault; its seed is in the report");

@@ -37,7 +37,6 @@ public:
   End_tally run(std::size_t drags) {
     while (tally_.drags < drags)
       grab();
-    tally_.invalid += !validate(mesh_, sculptor_.parameters().delta_length).is_valid();
     return tally_;
   }
 
@@ -109,7 +108,6 @@ private:
         place = end;
       return;
     }
-    std::size_t edits = 0;
     Vertex_index v = test::part_vertex(scene_, mesh_, random_);
     if (random_() % 4 == 0) { // the tip of a new cone over a face
       const Mesh::Face_index f(static_cast<Mesh::size_type>(random_() % mesh_.num_faces()));
@@ -118,10 +116,8 @@ private:
         const auto created =
             sculptor_.insert_on_face(f, CGAL::centroid(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)),
                                                        mesh_.point(mesh_.target(mesh_.next(h)))));
-        if (created) {
+        if (created)
           v = *created.vertex;
-          ++edits;
-        }
       }
     }
     record_ = {mesh_,
@@ -133,9 +129,10 @@ private:
     {
       auto grab = sculptor_.grab(v);
       drag_some(grab, v, mesh_.point(v));
-      edits += record_.targets.size();
     }
     sculptor_.release();
+    ++tally_.validations;
+    tally_.invalid += !validate(mesh_, sculptor_.parameters().delta_length).is_valid();
     if (!is_kept_)
       while (sculptor_.undo())
         ;

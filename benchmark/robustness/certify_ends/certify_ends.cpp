@@ -33,7 +33,7 @@ Json row(const std::string& name, const End_tally& tally) {
             << tally.at_leg_limit << " at the limit of legs; " << 100 * tally.share() << " % too early; "
             << tally.nanoseconds / static_cast<double>(tally.drags) / 1000 << " us a drag, "
             << tally.certificate_nanoseconds / static_cast<double>(tally.drags) / 1000 << " us a certificate; "
-            << tally.invalid << " invalid\n"
+            << tally.invalid << " invalid of " << tally.validations << '\n'
             << std::flush;
   return json;
 }
@@ -80,7 +80,7 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
       rows.back()["unit"] = 2 * family + is_kept_deformed;
     }
   Json totals = Json::array();
-  promises.add(not_embedded, "the mesh is embedded", parts.drags + near_degenerate.drags,
+  promises.add(not_embedded, "the mesh is embedded", parts.validations + near_degenerate.validations,
                parts.invalid + near_degenerate.invalid);
   for (const auto& [name, tally, share] :
        {std::tuple("all parts", parts, options.share_of_parts),

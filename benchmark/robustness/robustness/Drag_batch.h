@@ -122,6 +122,7 @@ private:
       ++tally_.through_asked;
       if (!result.reached && mesh_.point(v) == start) {
         ++tally_.through_stayed;
+        tally_.through_unexplained += result.contacts.empty();
         if (determined && error > 2) {
           ++tally_.through_lazy;
           script_.stays_farther_than(2 * clearance);

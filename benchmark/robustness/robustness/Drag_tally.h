@@ -12,6 +12,7 @@ struct Drag_tally {
   std::size_t drags = 0, reached = 0, blocked = 0;
   std::size_t short_asked = 0, short_arrived = 0;
   std::size_t through_asked = 0, through_stayed = 0, through_lazy = 0;
+  std::size_t through_unexplained = 0; ///< stayed, and no contact says why
   std::size_t validations = 0, invalid = 0, changed = 0, slow_stops = 0;
   std::size_t contradictions = 0; ///< results that contradict themselves
   double largest_stop_error = 0; ///< in clearances; stops with one contact whose plane is determined
@@ -23,6 +24,7 @@ struct Drag_tally {
     drags += t.drags, reached += t.reached, blocked += t.blocked;
     short_asked += t.short_asked, short_arrived += t.short_arrived;
     through_asked += t.through_asked, through_stayed += t.through_stayed, through_lazy += t.through_lazy;
+    through_unexplained += t.through_unexplained;
     validations += t.validations, invalid += t.invalid, changed += t.changed, slow_stops += t.slow_stops;
     contradictions += t.contradictions;
     largest_stop_error = std::max(largest_stop_error, t.largest_stop_error);
@@ -39,6 +41,7 @@ struct Drag_tally {
             {"through_asked", through_asked},
             {"through_stayed", through_stayed},
             {"through_lazy", through_lazy},
+            {"through_unexplained", through_unexplained},
             {"validations", validations},
             {"invalid", invalid},
             {"changed_elsewhere", changed},

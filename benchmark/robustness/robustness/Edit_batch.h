@@ -83,6 +83,7 @@ private:
 
   void undo_and_redo_all(const test::Mesh_snapshot& input) {
     const test::Mesh_snapshot end = test::snapshot(sculptor_);
+    ++tally_.histories;
     tally_.longest_history = sculptor_.history().number_of_undo_steps();
     while (sculptor_.undo())
       ;

@@ -15,7 +15,8 @@ struct Edit_tally {
     std::map<std::string, std::size_t> refused; ///< by reason
   };
   std::map<std::string, Row> rows; ///< by kind of edit, e.g. "insert_face near a corner"
-  std::size_t edits = 0, strokes = 0, validations = 0, invalid = 0, undo_differs = 0, redo_differs = 0, changed = 0;
+  std::size_t edits = 0, strokes = 0, validations = 0, invalid = 0, changed = 0;
+  std::size_t histories = 0, undo_differs = 0, redo_differs = 0; ///< undone and redone from one end to the other
   std::size_t creations_done = 0, creations_judged = 0, creations_wrongly_accepted = 0,
               creations_wrongly_refused = 0; ///< what is feasible is one or the other
   std::size_t longest_history = 0;
@@ -43,7 +44,8 @@ struct Edit_tally {
         rows[kind].refused[reason] += count;
     }
     edits += t.edits, strokes += t.strokes, validations += t.validations, invalid += t.invalid;
-    undo_differs += t.undo_differs, redo_differs += t.redo_differs, changed += t.changed;
+    changed += t.changed;
+    histories += t.histories, undo_differs += t.undo_differs, redo_differs += t.redo_differs;
     creations_done += t.creations_done, creations_wrongly_refused += t.creations_wrongly_refused;
     creations_judged += t.creations_judged, creations_wrongly_accepted += t.creations_wrongly_accepted;
     longest_history = std::max(longest_history, t.longest_history);
@@ -66,6 +68,7 @@ struct Edit_tally {
             {"done", done()},
             {"validations", validations},
             {"invalid", invalid},
+            {"histories", histories},
             {"undo_differs", undo_differs},
             {"redo_differs", redo_differs},
             {"changed_elsewhere", changed},

@@ -23,8 +23,9 @@ public:
 
   /// \param per_mesh drags, then the mesh is a copy of the input again and the lengths are drawn anew
   Extreme_tally run(std::size_t drags, std::size_t per_mesh = 10) {
-    while (tally_.drags + tally_.refused < drags)
-      one_mesh(std::min(per_mesh, drags - tally_.drags - tally_.refused));
+    const auto drawn = [this] { return tally_.drags + tally_.refused + tally_.not_begun; };
+    while (drawn() < drags)
+      one_mesh(std::min(per_mesh, drags - drawn()));
     return tally_;
   }
 
@@ -100,7 +101,7 @@ private:
         ++tally_.settings_refused;
       }
     if (!sculptor) {
-      tally_.refused += drags;
+      tally_.not_begun += drags;
       return;
     }
     for (; drags > 0; --drags) {

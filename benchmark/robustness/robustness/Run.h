@@ -252,9 +252,10 @@ private:
     drags_ += tally;
     std::cout << name << ": " << tally.drags << " drags, " << tally.blocked << " blocked, short " << tally.short_arrived
               << '/' << tally.short_asked << ", through stayed " << tally.through_stayed << '/' << tally.through_asked
-              << " (lazy " << tally.through_lazy << "), stop error up to " << tally.largest_stop_error << " c, "
-              << tally.invalid << " invalid of " << tally.validations << ", "
-              << tally.nanoseconds / static_cast<double>(tally.drags) << " ns, at most " << tally.longest << " ns\n"
+              << " (lazy " << tally.through_lazy << ", no contact " << tally.through_unexplained
+              << "), stop error up to " << tally.largest_stop_error << " c, " << tally.invalid << " invalid of "
+              << tally.validations << ", " << tally.nanoseconds / static_cast<double>(tally.drags) << " ns, at most "
+              << tally.longest << " ns\n"
               << std::flush;
     return true;
   }
@@ -280,7 +281,6 @@ private:
   }
 
   void add_promises(benchmark::Promises& promises) const {
-    const std::size_t drags = drags_.drags, extremes = extremes_.drags + extremes_.refused;
     const std::size_t files = shard_.is_first() ? files_read_ : 0; // every share reads all
     promises.add(not_embedded, "the mesh is embedded", drags_.validations + edits_.validations + extremes_.drags,
                  drags_.invalid + edits_.invalid + extremes_.invalid);
@@ -288,7 +288,7 @@ private:
     promises.add(moved_though_refused, "what is refused moves nothing", extremes_.refused,
                  extremes_.moved_though_refused);
     promises.add(went_away, "no drag ends farther from its target", extremes_.drags, extremes_.farther);
-    promises.add(contradiction, "no result contradicts itself", drags + extremes,
+    promises.add(contradiction, "no result contradicts itself", drags_.drags + extremes_.drags,
                  drags_.contradictions + extremes_.contradictions);
     promises.add(other_bits, "every broad phase gives the same bits", all_counts_.compared,
                  all_counts_.other_bits);
@@ -296,8 +296,8 @@ private:
                  edits_.creations_wrongly_accepted);
     promises.add(mesh_changed, "nothing moves but what is in hand", drags_.validations + edits_.validations,
                  drags_.changed + edits_.changed);
-    promises.add(undo_differs, "undone, all is as it was, bit for bit", edits_.edits, edits_.undo_differs);
-    promises.add(redo_differs, "redone, all is as it was, bit for bit", edits_.edits, edits_.redo_differs);
+    promises.add(undo_differs, "undone, all is as it was, bit for bit", edits_.histories, edits_.undo_differs);
+    promises.add(redo_differs, "redone, all is as it was, bit for bit", edits_.histories, edits_.redo_differs);
     promises.add(wrongly_accepted, "what has to be refused is refused", files,
                  shard_.is_first() ? wrongly_accepted_ : 0);
     promises.add(wrongly_refused, "what has to be accepted is accepted", options_.refuse.empty() ? 0 : files,

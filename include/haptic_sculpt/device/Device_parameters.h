@@ -127,8 +127,11 @@ template <class S> std::vector<std::string> violations(const Device_description<
   if (inertia_is_sound)
     for (int axis = 0; axis < 3; ++axis) {
       const S others = d.platform_inertia.sum() - d.platform_inertia[axis];
-      // A disc meets this with equality, so its rounded moments may miss it by a few units in the last place.
-      if (d.platform_inertia[axis] > others * (S(1) + S(16) * std::numeric_limits<S>::epsilon()))
+      // A disc meets this with equality, so its rounded moments may miss it by a few units in the last place: of a
+      // double, where a wider type was given them as such.
+      const S own(std::numeric_limits<S>::epsilon()), of_double(std::numeric_limits<double>::epsilon());
+      const S unit = own < of_double ? of_double : own;
+      if (d.platform_inertia[axis] > others * (S(1) + S(16) * unit))
         found.push_back("platform_inertia (I): one moment exceeds the sum of the two others, which no body has");
     }
   for (int leg = 0; leg < 3; ++leg)

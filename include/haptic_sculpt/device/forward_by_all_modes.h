@@ -11,13 +11,30 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Sign of the closure's determinant: it changes only across a fold, so the modes of one sheet share it.
-template <class S> bool on_home_sheet(const Platform_closure<S>& closure, const Link_angles<S>& x) {
-  Device_matrix<S> adjugate;
-  S determinant;
-  closure.derivative_adjugate(x, adjugate, determinant);
-  return determinant > S(0);
-}
+/// The sheet of the symmetric pose at the mean joint angle, by the sign of the closure's determinant: it changes only
+/// across a fold, so the modes of one sheet share it. There it is that of R + l1 cos, how far the elbows are from the
+/// middle: beyond it they stand crosswise.
+template <class S>
+class Home_sheet {
+public:
+  Home_sheet(const Device_parameters<S>& parameters, const S& mean)
+      : is_positive_(parameters.base_radius() + parameters.primary_length() * cos_of(mean) > S(0)) {}
+
+  bool has(const Platform_closure<S>& closure, const Link_angles<S>& x) const {
+    Device_matrix<S> adjugate;
+    S determinant;
+    closure.derivative_adjugate(x, adjugate, determinant);
+    return is_positive_ ? determinant > S(0) : determinant < S(0);
+  }
+
+private:
+  bool is_positive_;
+
+  static S cos_of(const S& angle) {
+    using std::cos;
+    return cos(angle);
+  }
+};
 
 /// How far the closure is from having a solution: the least residual (largest of the three, in units of l2^2) that
 /// damped Gauss-Newton steps find from x. Local, so an upper bound of the true distance.
@@ -53,8 +70,8 @@ bool is_across_the_fold(const Platform_closure<S>& closure, const Link_angles<S>
 /// The mode nearest to a seed. Two modes about a fold that are closer to each other than to the seed cannot be
 /// distinguished by it: then the one on the home sheet is meant, and where two folds meet the nearer one of these.
 template <class S>
-bool nearest_mode(const Platform_closure<S>& closure, const Assembly_modes<S>& modes, const Link_angles<S>& seed,
-                  Link_angles<S>& x) {
+bool nearest_mode(const Platform_closure<S>& closure, const Home_sheet<S>& home, const Assembly_modes<S>& modes,
+                  const Link_angles<S>& seed, Link_angles<S>& x) {
   if (modes.count == 0)
     return false;
   int best = 0;
@@ -65,12 +82,12 @@ bool nearest_mode(const Platform_closure<S>& closure, const Assembly_modes<S>& m
       best_distance = distance, best = k;
   }
   x = modes.modes[best];
-  if (on_home_sheet(closure, x))
+  if (home.has(closure, x))
     return true;
   bool found = false;
   for (int k = 0; k < modes.count; ++k) {
     const Link_angles<S>& mode = modes.modes[k];
-    if (on_home_sheet(closure, mode) && angular_distance(mode, modes.modes[best]) < best_distance &&
+    if (home.has(closure, mode) && angular_distance(mode, modes.modes[best]) < best_distance &&
         (!found || angular_distance(mode, seed) < angular_distance(x, seed)) &&
         is_across_the_fold(closure, mode, modes.modes[best]))
       x = mode, found = true;
@@ -91,12 +108,13 @@ Outcome<Device_pose<S>> forward_nearest_to(const Device_parameters<S>& parameter
   Device_pose<S>& pose = outcome.value_to_fill();
   place_elbows(parameters, theta, pose);
   const Platform_closure<S> closure(parameters, pose.elbows);
+  const Home_sheet<S> home(parameters, mean_of(theta));
   Assembly_modes<S> candidates;
   for (int k = 0; k < all->count; ++k)
-    if (!at_home || on_home_sheet(closure, all->modes[k]))
+    if (!at_home || home.has(closure, all->modes[k]))
       candidates.modes[candidates.count++] = all->modes[k];
   Link_angles<S> x;
-  if (!nearest_mode(closure, candidates, seed, x)) {
+  if (!nearest_mode(closure, home, candidates, seed, x)) {
     outcome.fail(Device_status::no_real_mode, least_residual(closure, seed));
     return outcome;
   }
@@ -108,7 +126,7 @@ Outcome<Device_pose<S>> forward_nearest_to(const Device_parameters<S>& parameter
 } // namespace internal
 
 /// The pose in the home mode, as forward_kinematics(); where that is `undecided`, the mode of the home sheet (that sign
-/// of the closure's determinant) nearest to the symmetric pose.
+/// of the closure's determinant that the symmetric pose at the mean angle has) nearest to the symmetric pose.
 ///
 /// Failures as of the form's own function, but for `undecided`; `no_real_mode`: there is none on the home sheet,
 /// shortfall the least residual of the closure found from the symmetric pose, as a part of l2^2. About 0.1 ms where all
@@ -119,7 +137,7 @@ Outcome<Device_pose<S>> forward_by_all_modes(const Device_parameters<S>& paramet
   if (straight.status() != Device_status::undecided)
     return straight;
   Link_angles<S> seed;
-  if (!internal::symmetric_home(parameters, S((theta[0] + theta[1] + theta[2]) / S(3)), seed)) {
+  if (!internal::symmetric_home(parameters, internal::mean_of(theta), seed)) {
     seed.cosine.setZero();
     seed.sine.setConstant(S(-1));
   }

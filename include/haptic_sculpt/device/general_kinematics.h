@@ -103,6 +103,11 @@ inline S follow_mode(const Device_parameters<S>& parameters, const Device_vector
   return done;
 }
 
+template <class S>
+S mean_of(const Device_vector<S>& theta) {
+  return (theta[0] + theta[1] + theta[2]) / S(3);
+}
+
 /// The symmetric pose at the mean angle: its link angles, platform above the elbows. False if the links cannot close
 /// there.
 template <class S> bool symmetric_home(const Device_parameters<S>& parameters, const S& theta, Link_angles<S>& x) {
@@ -243,7 +248,7 @@ inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& param
     outcome.fail(Device_status::not_finite, S(0));
     return outcome;
   }
-  const S mean = (theta[0] + theta[1] + theta[2]) / S(3);
+  const S mean = internal::mean_of(theta);
   const Device_vector<S> symmetric = Device_vector<S>::Constant(mean);
   Link_angles<S> x;
   const S done = symmetric_home(parameters, mean, x) ? follow_mode(parameters, symmetric, theta, x) : S(0);

@@ -193,13 +193,16 @@ struct Passivity_limits {
   /// Whether the coupling can give no energy to any hand, and is calm. \pre the damping is the one that the limits were
   /// made for
   bool permits(const Virtual_coupling& coupling) const { return coupling.stiffness <= largest_stiffness(); }
+  /// Of the apparent mass: an eigenvalue, which compilers may round otherwise at two places.
+  static constexpr double rounding_of_mass = 1e-9;
   /// Whether they were made for these, N s/m, s, ticks, Hz, for the conditions at which these forces fade, and a device
-  /// with the Jacobian, friction and encoders of this one.
+  /// with the Jacobian, masses, friction and encoders of this one.
   bool are_for(const Device_parameters<double>& device, const Force_limits& forces, const Workspace_map& place,
                double b, double seconds, double ticks, double hertz) const {
     const internal::Rounding_to_nearest rounding; // in which they were made
     if (!map || !(*map == place) || full_condition != forces.full_condition || no_condition != forces.no_condition ||
         damping != b || tick != seconds || delay != ticks || cutoff != hertz || worst.friction(device) != friction ||
+        !(std::abs(lightest.apparent_mass(device) - apparent_mass) <= rounding_of_mass * apparent_mass) ||
         haptic_sculpt::passive_stiffness(friction, b, seconds, ticks) != passive_stiffness ||
         haptic_sculpt::calm_stiffness(worst.count(device), b) != calm_stiffness)
       return false;

@@ -56,6 +56,10 @@ public:
     energy_.command(Eigen::Vector3d::Zero());
   }
 
+  /// What it holds at a velocity (m/s), and gives back when the hand brakes, J.
+  double held_energy(const Eigen::Vector3d& velocity) const {
+    return mass_ > 0 ? 0.5 * mass_ * share_ * velocity.squaredNorm() : 0;
+  }
   double energy() const { return energy_.port(); } ///< taken from the hand before limits, J
 
 private:

@@ -59,7 +59,8 @@ public:
   friend reference get(const Guarded_point_map& map, key_type v) { return map.sculptor_->mesh().point(v); }
 
   /// Drags v towards p. A point that is not finite or out of range is refused, and counted, whatever the policy.
-  /// \throw Unknown_vertex, Mesh_changed: e.g. where the function changes connectivity, too
+  /// \throw Unknown_vertex, Mesh_changed: e.g. where the function changes connectivity, too; flips are found where v is
+  /// a vertex of what was flipped
   friend void put(const Guarded_point_map& map, key_type v, const value_type& p) { map.write(v, p); }
 
 private:

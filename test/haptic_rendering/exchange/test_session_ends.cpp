@@ -269,6 +269,28 @@ BOOST_AUTO_TEST_CASE(a_restart_that_was_asked_for_before_an_overrun_was_seen_doe
   BOOST_TEST((d.loop.interaction().fault() == Loop_fault::none));
 }
 
+BOOST_AUTO_TEST_CASE(an_overrun_that_no_tick_has_said_is_said_in_the_scene_that_is_entered) {
+  for (const bool is_in_hand : {false, true}) { // it overruns by the tick before, or when what is held is let go of
+    Queue d(true);
+    d.loop.tool().take(*d.scene->mesh.vertices_begin());
+    for (int k = 0; k < 1100 && !d.journal.has_overrun() && !(is_in_hand && d.session.ticks() == 1000); ++k)
+      d.tick();
+    BOOST_REQUIRE(d.journal.has_overrun() == !is_in_hand);
+    Command enter;
+    enter.kind = Command::Kind::enter, enter.scene = d.other.get(), enter.journal = &d.journal_of_other;
+    BOOST_TEST(d.queue.ask(enter));
+    d.tick();
+    BOOST_TEST(d.answers().size() == 1u);
+    BOOST_TEST((d.last.done && d.last.left == d.scene.get() && &d.session.scene() == d.other.get()));
+    BOOST_TEST(d.journal.has_overrun());
+    BOOST_TEST((d.loop.interaction().fault() == Loop_fault::log));
+    d.loop.restart();
+    for (int k = 0; k < 10; ++k) // once
+      d.tick();
+    BOOST_TEST((d.loop.interaction().fault() == Loop_fault::none));
+  }
+}
+
 // Of faults the first stays: what is lost is said after it has been seen to.
 BOOST_AUTO_TEST_CASE(a_journal_that_overruns_beside_another_fault_ends_the_run_after_the_restart) {
   for (const bool is_restarted_at_once : {false, true}) {

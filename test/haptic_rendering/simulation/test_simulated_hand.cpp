@@ -6,6 +6,8 @@
 #include <haptic_sculpt/haptic_rendering/simulation/Hand_path.h>
 #include <haptic_sculpt/haptic_rendering/simulation/Simulated_device.h>
 
+#include <seeds_and_sizes.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <cfenv>
@@ -111,7 +113,7 @@ double energy_of(const Simulated_hand& hand, const Simulated_hand::States& state
 }
 
 BOOST_AUTO_TEST_CASE(a_hand_gives_what_its_springs_and_masses_lose_and_its_dampers_take) {
-  Random random(63);
+  Random random(haptic_sculpt::test::seed_from_environment(63));
   Simulated_hand three = Simulated_hand::arm();
   three.stages = 3, three.stage[2] = {0.4, 90, 4};
   for (const Simulated_hand& hand : {*Simulated_hand::named("finger"), *Simulated_hand::named("arm"),

@@ -221,8 +221,8 @@ struct Session {
     ++balls;
     for (int i = 0; i < 6; ++i) {
       Coordinates target = away(size);
-      while (!pairs.cover(source, target))
-        target = internal::advanced(source, 0.7, minus(target, source));
+      for (int k = 0; !pairs.cover(source, target); ++k) // rounded, a step may never become shorter
+        target = k < 100 ? internal::advanced(source, 0.7, minus(target, source)) : source;
       const Star_impacts<Mesh> expected = all.first_impacts(source, target);
       narrow.first_impacts(all.star, list, pairs, source, target, found);
       ++covered, met += !expected.empty();

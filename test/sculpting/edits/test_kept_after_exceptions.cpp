@@ -95,15 +95,20 @@ BOOST_AUTO_TEST_CASE(an_edit_that_is_not_made_leaves_what_redo_gives_back) {
   BOOST_TEST((scene.values() == made));
 }
 
+namespace {
+
+struct Counting_visitor : Default_edit_visitor {
+  int faces = 0, vertices = 0;
+  void face_dies(Mesh::Face_index) { --faces; }
+  void face_created(Mesh::Face_index) { ++faces; }
+  void vertex_dies(Mesh::Vertex_index, std::size_t) { --vertices; }
+  void vertex_created(Mesh::Vertex_index, std::size_t) { ++vertices; }
+};
+
+} // namespace
+
 // A map is not the visitor's: the visitor hears of all that stands.
 BOOST_AUTO_TEST_CASE(a_visitor_hears_of_an_edit_that_stands_where_a_map_has_thrown) {
-  struct Counting_visitor : Default_edit_visitor {
-    int faces = 0, vertices = 0;
-    void face_dies(Mesh::Face_index) { --faces; }
-    void face_created(Mesh::Face_index) { ++faces; }
-    void vertex_dies(Mesh::Vertex_index, std::size_t) { --vertices; }
-    void vertex_created(Mesh::Vertex_index, std::size_t) { ++vertices; }
-  };
   for (const bool removes : {false, true}) {
     Mesh mesh = meshes::to_mesh(lumpy_ball());
     const auto map = mesh.add_property_map<Mesh::Face_index, int>("f:value", 1).first;
@@ -184,6 +189,60 @@ struct Step {
 };
 
 } // namespace
+
+namespace {
+
+struct Failing_map {
+  using key_type = Mesh::Vertex_index;
+  using value_type = int;
+  using reference = int;
+  using category = boost::read_write_property_map_tag;
+  Mesh::Property_map<Mesh::Vertex_index, int> map;
+  int* left; ///< values that can be put, and one: then each throws; 0: all can
+  friend int get(const Failing_map& m, Mesh::Vertex_index v) { return m.map[v]; }
+  friend void put(const Failing_map& m, Mesh::Vertex_index v, int value) {
+    if (*m.left == 1)
+      throw Interruption();
+    *m.left -= *m.left > 0;
+    m.map[v] = value;
+  }
+};
+
+} // namespace
+
+// A map that throws from some time on, also while what was taken back is made again.
+BOOST_AUTO_TEST_CASE(a_visitor_hears_of_a_step_that_a_map_breaks_off_again_and_again) {
+  int broken = 0, stand = 0;
+  for (int n = 1; n <= 6; ++n) {
+    Mesh mesh = meshes::to_mesh(lumpy_ball());
+    const auto values = mesh.add_property_map<Mesh::Vertex_index, int>("v:value", 1).first;
+    int left = 0;
+    Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Counting_visitor> sculptor(mesh);
+    sculptor.keep(Failing_map{values, &left});
+    {
+      const auto stroke = sculptor.stroke();
+      BOOST_REQUIRE(static_cast<bool>(sculptor.remove(Mesh::Vertex_index(3))));
+      BOOST_REQUIRE(static_cast<bool>(sculptor.remove(Mesh::Vertex_index(7))));
+      const auto e = *mesh.edges_begin(); // to be created again where the removal before it cannot be undone
+      BOOST_REQUIRE(static_cast<bool>(
+          sculptor.insert_on_edge(e, CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))))));
+      BOOST_REQUIRE(static_cast<bool>(sculptor.remove(Mesh::Vertex_index(20))));
+    }
+    const int faces = static_cast<int>(mesh.number_of_faces()), vertices = static_cast<int>(mesh.number_of_vertices());
+    sculptor.visitor() = Counting_visitor();
+    left = n;
+    try {
+      sculptor.undo();
+    } catch (const Interruption&) {
+      ++broken;
+    }
+    stand += sculptor.history().number_of_undo_steps() == 0;
+    BOOST_TEST(static_cast<int>(mesh.number_of_faces()) - faces == sculptor.visitor().faces);
+    BOOST_TEST(static_cast<int>(mesh.number_of_vertices()) - vertices == sculptor.visitor().vertices);
+  }
+  BOOST_TEST_MESSAGE(broken << " broken off, " << stand << " undone all the same");
+  BOOST_TEST(broken == 3);
+}
 
 // Of all values, those of the change that was broken off included.
 BOOST_AUTO_TEST_CASE(a_step_that_a_map_breaks_off_is_made_later_as_if_nothing_had_been) {

@@ -7,6 +7,7 @@
 #include <haptic_sculpt/sculpting.h>
 #include <haptic_sculpt/surface.h>
 
+#include <seeds_and_sizes.h>
 #include <shared_data.h>
 
 #include <boost/test/unit_test.hpp>

@@ -324,3 +324,24 @@ BOOST_AUTO_TEST_CASE(inflate_lets_solids_grow_that_are_inside_out) {
   while (sculptor.undo())
     check();
 }
+
+// Also where more vertices are given than a dab touches.
+BOOST_AUTO_TEST_CASE(what_is_beyond_the_radius_stays) {
+  const Mesh mesh = meshes::to_mesh(meshes::icosphere(2));
+  const std::vector<Vertex_index> all(mesh.vertices_begin(), mesh.vertices_end());
+  for (const Brush_kind kind : kinds)
+    for (const double radius : {0.5, 0.0}) {
+      const Dab dab{kind, mesh.point(Vertex_index(0)), radius, 0.1, {}};
+      std::map<Vertex_index, Point_3> few, many;
+      const auto mask = boost::static_property_map<double, Vertex_index>(1);
+      fill_brush_targets(touched_vertices(mesh, dab, Vertex_index(0)), mesh, dab, boost::make_assoc_property_map(few),
+                         mask);
+      fill_brush_targets(all, mesh, dab, boost::make_assoc_property_map(many), mask);
+      BOOST_TEST(few.empty() == (radius == 0));
+      for (const Vertex_index v : all)
+        if (few.count(v) != 0) // the order of sums is another
+          BOOST_TEST(CGAL::squared_distance(many.at(v), few.at(v)) <= 1e-28);
+        else
+          BOOST_TEST((many.at(v) == mesh.point(v)));
+    }
+}

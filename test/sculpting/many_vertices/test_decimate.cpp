@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Decimation under the guard, beside CGAL's own with the same policies.
+#include "sculpting/many_vertices/Edge_count_stop.h"
 #include "sculpting/many_vertices/Policy_optional.h"
 
 #include <haptic_sculpt/sculpting/decimate.h>
@@ -11,7 +12,6 @@
 
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(to_a_tenth_without_an_intersection) {
   for (const auto& [name, mesh] : meshes_to_decimate())
     BOOST_TEST_CONTEXT(name) {
       const std::size_t edges = mesh.number_of_edges() / 10;
-      const SMS::Count_stop_predicate<Mesh> stop(edges);
+      const haptic_sculpt::Edge_count_stop<Mesh> stop(edges);
       Mesh guarded = mesh, alone = mesh;
       SMS::edge_collapse(alone, stop);
       alone.collect_garbage();
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(undo_brings_all_back) {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(3, 0.3, 0.02));
   const Mesh before = mesh;
   Sculptor<Mesh> sculptor(mesh);
-  haptic_sculpt::decimate(sculptor, SMS::Count_stop_predicate<Mesh>(300));
+  haptic_sculpt::decimate(sculptor, haptic_sculpt::Edge_count_stop<Mesh>(300));
   BOOST_TEST(mesh.number_of_edges() <= 300u);
   BOOST_TEST(static_cast<bool>(sculptor.undo()));
   BOOST_TEST(mesh.number_of_faces() == before.number_of_faces());
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(policies_that_keep_quadrics_are_told) {
   using Policies = SMS::GarlandHeckbert_plane_policies<Mesh, meshes::Kernel>;
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(4, 0.3, 0.02)), alone = mesh;
   const Mesh before = mesh;
-  const SMS::Count_stop_predicate<Mesh> stop(mesh.number_of_edges() / 10);
+  const haptic_sculpt::Edge_count_stop<Mesh> stop(mesh.number_of_edges() / 10);
   {
     Policies policies(alone);
     SMS::edge_collapse(alone, stop,
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(planes_stay_planes) {
                            (x * std::sin(0.7) + y * std::cos(0.7)) * std::sin(0.4) + z * std::cos(0.4)};
         }
         const Mesh before = mesh;
-        const SMS::Count_stop_predicate<Mesh> stop(mesh.number_of_edges() / 40);
+        const haptic_sculpt::Edge_count_stop<Mesh> stop(mesh.number_of_edges() / 40);
         SMS::GarlandHeckbert_plane_policies<Mesh, meshes::Kernel> policies(mesh);
         haptic_sculpt::Decimation_report report;
         {
@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(nothing_done_is_no_step_and_what_was_undone_can_be_redone) 
   sculptor.drag(v, mesh.point(v) + meshes::Kernel::Vector_3(0, 0, 0.125));
   sculptor.undo();
   const Mesh before = mesh;
-  const auto report = haptic_sculpt::decimate(sculptor, SMS::Count_stop_predicate<Mesh>(0));
+  const auto report = haptic_sculpt::decimate(sculptor, haptic_sculpt::Edge_count_stop<Mesh>(0));
   BOOST_TEST(report.collapsed == 0u);
   BOOST_TEST(report.refused > 5u);
   BOOST_TEST(reading_and_writing::identical(mesh, before));

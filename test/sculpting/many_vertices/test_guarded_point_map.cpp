@@ -154,7 +154,22 @@ BOOST_AUTO_TEST_CASE(what_is_no_point_is_refused_and_counted) {
   BOOST_CHECK_THROW(put(map, Vertex_index(1000), before), Unknown_vertex);
   map.reset_counts();
   BOOST_TEST(map.refused() == 0u);
-  // A function that changes connectivity is found out.
+  // A function that changes connectivity is found out, also by what counts nothing.
+  for (const Guard_policy policy :
+       {Guard_policy::back_off, Guard_policy::stop, Guard_policy::slide, Guard_policy::whole}) {
+    Mesh flipped = meshes::to_mesh(meshes::icosphere(1));
+    Sculptor<Mesh> other(flipped);
+    const auto h = *flipped.halfedges_begin();
+    const std::array<Vertex_index, 2> beside = {flipped.target(flipped.next(h)),
+                                                flipped.target(flipped.next(flipped.opposite(h)))};
+    CGAL::Euler::flip_edge(h, flipped);
+    for (const Vertex_index v : beside) {
+      const Point_3 place = flipped.point(v);
+      BOOST_CHECK_THROW(put(guarded_point_map(other, policy), v, CGAL::midpoint(place, Point_3(0, 0, 0))),
+                        Mesh_changed);
+      BOOST_TEST((flipped.point(v) == place));
+    }
+  }
   mesh.add_vertex(Point_3(9, 9, 9));
   BOOST_CHECK_THROW(put(map, Vertex_index(3), Point_3(0, 0, 0.5)), Mesh_changed);
 }

@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(no_input_vertex_is_left_behind) {
 
 BOOST_AUTO_TEST_CASE(distances_to_triangles) {
   // Against the least of many points of the triangle, and the plane.
-  std::mt19937 random(1);
+  std::mt19937 random(static_cast<std::uint32_t>(seed_from_environment(1)));
   const auto uniform = [&] { return random() / 2147483648.0 - 1; };
   for (int run = 0; run < 2000; ++run) {
     internal::Vector p, t[3];

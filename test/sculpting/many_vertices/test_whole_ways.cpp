@@ -6,8 +6,7 @@ using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
 
 BOOST_AUTO_TEST_CASE(a_drag_made_once_changes_no_result) {
-  std::mt19937 random(11);
-  BOOST_TEST_MESSAGE("seed 11");
+  std::mt19937 random(static_cast<std::uint32_t>(seed_from_environment(11)));
   for (const auto& [name, scene] : scenes()) {
     Mesh usual = scene, single = scene;
     Sculptor<Mesh> one(usual, parameters::response(Response::stop)),
@@ -41,8 +40,7 @@ BOOST_AUTO_TEST_CASE(a_drag_made_once_changes_no_result) {
 }
 
 BOOST_AUTO_TEST_CASE(a_whole_way_or_none) {
-  std::mt19937 random(12);
-  BOOST_TEST_MESSAGE("seed 12");
+  std::mt19937 random(static_cast<std::uint32_t>(seed_from_environment(12)));
   for (const auto& [name, scene] : scenes(false)) {
     Mesh mesh = scene;
     Sculptor<Mesh> sculptor(mesh);
@@ -65,8 +63,7 @@ BOOST_AUTO_TEST_CASE(a_whole_way_or_none) {
 }
 
 BOOST_AUTO_TEST_CASE(the_cheaper_proof_is_right_and_often_found) {
-  std::mt19937 random(13);
-  BOOST_TEST_MESSAGE("seed 13");
+  std::mt19937 random(static_cast<std::uint32_t>(seed_from_environment(13)));
   std::size_t free = 0, proven = 0, wrong = 0;
   for (const Named_mesh& scene : scenes(false))
     for (int i = 0; i < 150; ++i) {

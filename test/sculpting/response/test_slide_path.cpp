@@ -2,6 +2,8 @@
 // A path made shorter begins and ends where it did, and each of its legs is an old one or has been found free.
 #include <haptic_sculpt/sculpting/response/Slide_path.h>
 
+#include <seeds_and_sizes.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
@@ -77,8 +79,7 @@ std::vector<Vector> around_cylinder(int legs, double angle, double from, double 
 } // namespace
 
 BOOST_AUTO_TEST_CASE(paths_half_round_a_cylinder_become_short) {
-  BOOST_TEST_MESSAGE("seed 512");
-  std::mt19937_64 random(512);
+  std::mt19937_64 random(haptic_sculpt::test::seed_from_environment(512));
   const auto number = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
@@ -105,8 +106,7 @@ BOOST_AUTO_TEST_CASE(paths_half_round_a_cylinder_become_short) {
 }
 
 BOOST_AUTO_TEST_CASE(steps_of_an_ulp_over_a_plane_become_one_leg) {
-  BOOST_TEST_MESSAGE("seed 513");
-  std::mt19937_64 random(513);
+  std::mt19937_64 random(haptic_sculpt::test::seed_from_environment(513));
   std::vector<Vector> points = {{-1, -1, 1}};
   for (int i = 0; i < 7; ++i)
     points.push_back({0.5, 0.5, 1e-15 * static_cast<double>(1 + random() % 8)});

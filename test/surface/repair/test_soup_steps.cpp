@@ -121,6 +121,21 @@ BOOST_AUTO_TEST_CASE(a_point_without_a_face_that_is_far_off_does_not_matter) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_a_step_leaves_without_a_face_comes_back_from_the_unit) {
+  Face_soup soup = soup_of(meshes::tetrahedron().scale_and_move(0x1p600, 0, 0, 0));
+  const Face_soup before = soup;
+  soup.points.emplace_back(1, 1, 1);
+  const haptic_sculpt::internal::Unit_scale unit(soup, std::nullopt);
+  unit.down(soup);
+  BOOST_TEST(unit.down(0x1p600) <= 1);
+  BOOST_TEST((soup.points.back() == Point_3(1, 1, 1))); // without a face as it was given, so it stays
+  soup.points.back() = soup.points[1];
+  soup.corners.clear();
+  soup.first_corner.assign(1, 0);
+  unit.up(soup);
+  BOOST_TEST((soup.points.back() == before.points[1] && before.points[1].x() == 0x1p600));
+}
+
 // Faces with a hole enclose no volume, whichever corner they begin with.
 BOOST_AUTO_TEST_CASE(an_open_part_is_no_sheet) {
   for (int first = 0; first < 3; ++first) {

@@ -89,7 +89,12 @@ public:
   ///@{
 
   /// Takes the next command. \return false where there is none
-  bool take(Loop_command<Scene>& command) { return commands_.pop(command); }
+  bool take(Loop_command<Scene>& command) {
+    if (commands_.read_available() == 0)
+      return false;
+    command = std::move(commands_.front()); // pop() would copy, which may lack memory
+    return commands_.pop();
+  }
   void answer(const Loop_answer<Scene>& answer) { answers_.push(answer); } ///< there is room: see ask()
   ///@}
 

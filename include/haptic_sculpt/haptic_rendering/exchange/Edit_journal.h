@@ -73,7 +73,12 @@ public:
 
   /// Takes the next entry. \return false where there is none yet. The entries of the last tick may be followed by none:
   /// they wait for its end.
-  bool take(Edit& edit) { return queue_.pop(edit); }
+  bool take(Edit& edit) {
+    if (queue_.read_available() == 0)
+      return false;
+    edit = std::move(queue_.front()); // pop() would copy
+    return queue_.pop();
+  }
   /// This many more ticks are written, or cannot be.
   void wrote(std::uint64_t ticks) { taken_.fetch_add(ticks, std::memory_order_release); }
   ///@}

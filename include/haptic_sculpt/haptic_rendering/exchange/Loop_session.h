@@ -44,7 +44,8 @@ public:
 
   /// What a command or task throws is its answer, what the loop throws a fault of the loop: the force is given anyway.
   /// A journal that has overrun ends the loop by Loop_fault::log, once: after a restart nothing is in it any more.
-  /// Beside another fault it does so after the restart.
+  /// Beside another fault it does so after the restart. Of a scene that is left
+  /// it does so in the one that is entered.
   template <class Reading>
   const auto& tick(const Reading& reading) noexcept {
     if (queue_ != nullptr)
@@ -124,12 +125,8 @@ private:
   /// A command is taken first, so that tasks see what the asking thread did before it asked for that.
   void serve() {
     Loop_command<Scene> command;
-    try {
-      if (!next_ && tasks_.size() < most_tasks && queue_->take(command))
-        next_ = std::move(command);
-    } catch (const std::bad_alloc&) { // of a copy: it stays in the queue, and is taken by a later tick
-      return;
-    }
+    if (!next_ && tasks_.size() < most_tasks && queue_->take(command))
+      next_ = std::move(command);
     for (std::size_t i = 0; i < tasks_.size();) {
       Loop_answer<Scene> answer = answer_to(tasks_[i], true);
       if (attempt(answer, [&] { return tasks_[i].task->go_on(*scene_, loop_->tool()); })) {
@@ -189,7 +186,7 @@ private:
       loop_->zoom(command.factor);
       break;
     case Kind::restart: // of another fault: who asked has not seen this one
-      has_told_overrun_ = has_told_overrun_ && (has_passed_on_ || loop_->interaction().fault() != Loop_fault::log);
+      has_told_overrun_ = is_overrun_seen();
       loop_->restart();
       break;
     case Kind::task:
@@ -216,11 +213,19 @@ private:
     return true;
   }
 
+  /// Whether a tick has said that the journal has overrun.
+  bool is_overrun_seen() const {
+    return has_told_overrun_ && (has_passed_on_ || loop_->interaction().fault() != Loop_fault::log);
+  }
+
   Scene* enter(Scene& scene, Edit_journal* journal) {
     loop_->tool().let_go(); // the end of what is in hand is in the old journal
     if (journal_ != nullptr)
       journal_->end_tick(ticks_);
+    const bool has_lost = journal_ != nullptr && journal_->has_overrun() && !is_overrun_seen();
     loop_->enter(scene.sculptor, scene.map);
+    if (has_lost)
+      loop_->end_by(Loop_fault::log); // which entering has begun anew
     loop_->tool().keep_journal(journal_ = journal);
     has_told_overrun_ = false;
     scene_->sculptor.visitor().mark_all(); // where it is entered again no viewer has it

@@ -68,7 +68,8 @@ public:
                     : Eigen::Vector3d(Eigen::Vector3d::Zero());
     wanted_ = spring_ + touch.snap + coupling_.damping_force(touch.span, side_.velocity(), !pulls);
     if (!touch.is_starved) // what the spring holds is not known then
-      observer_.forget_beyond(reserve_ + (pulls ? 0.5 * stiffness_ * touch.way.squaredNorm() : 0));
+      observer_.forget_beyond(reserve_ + (pulls ? 0.5 * stiffness_ * touch.way.squaredNorm() : 0) +
+                              virtual_mass_.held_energy(side_.velocity()));
     if (side_.has_force())
       wanted_ += virtual_mass_.force(side_.step(), elapsed_, touch.holds) +
                  controller_.force(observer_, side_.step(), elapsed_);
@@ -140,7 +141,7 @@ private:
     return touch.is_free || held <= paid ? 1 : paid > 0 ? paid / held : 0;
   }
 
-  /// Virtual mass, snap and burst hold some mJ; and where a proxy falls, the slew limit leaves a force for a while, in
+  /// Snap and burst hold some mJ; and where a proxy falls, the slew limit leaves a force for a while, in
   /// which a hand at 0.3 m/s is given half of what is taken here: 13 mJ by default.
   static double reserve_of(const Force_limits& limits) {
     return 0.05 + 0.3 * limits.largest * limits.largest / limits.slew;

@@ -60,8 +60,8 @@ public:
     if (fraction > 0)
       status = live(0, fraction * tick_, fraction > 0.5 ? 2 : 1, held_.before(), interaction_.before());
     if (status == Device_status::success)
-      status = live(fraction * tick_, (1 - fraction) * tick_, fraction > 0.5 || fraction == 0 ? 2 : 1, held_.after(),
-                    interaction_.after());
+      status =
+          live(fraction * tick_, (1 - fraction) * tick_, fraction < 0.5 ? 2 : 1, held_.after(), interaction_.after());
     if (status != Device_status::success)
       state_ = state, port_ = port;
     ++ticks_;

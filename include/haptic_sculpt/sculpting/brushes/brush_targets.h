@@ -74,7 +74,7 @@ void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& verti
     if (!(part >= 0 && part <= 1))
       throw Invalid_parameter("the mask of vertex " + std::to_string(static_cast<std::size_t>(v)) +
                               " must be from 0 to 1, not " + number(part));
-    return (1 - square) * (1 - square) * part;
+    return square < 1 ? (1 - square) * (1 - square) * part : 0; // it would grow again beyond the radius
   };
   const bool has_direction = dab.kind != Brush_kind::inflate && dab.kind != Brush_kind::smooth;
   Vector_3 direction = CGAL::NULL_VECTOR, mean = CGAL::NULL_VECTOR;
@@ -107,22 +107,26 @@ void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& verti
     }
     }
   };
-  for (const auto v : vertices)
-    put(v, mesh.point(v) + dab.strength * weight(v) * wanted(v));
+  for (const auto v : vertices) {
+    const double w = weight(v);
+    put(v, w == 0 ? mesh.point(v) : mesh.point(v) + dab.strength * w * wanted(v));
+  }
 }
 
 } // namespace internal
 
-/// Where a dab wants the vertices that it touches.
+/// Where a dab wants these vertices: those that it does not touch, where they are.
 /// \param targets a writable property map from vertices to points; is written for `vertices` only
 /// \param mask a readable property map from vertices to how much they take part, from 0 to 1
 /// \param inside_out whether the normals of the component point into the solid, as Sculptor::is_inside_out() says: a
 /// dab that inflates goes the other way then
-/// \throw Invalid_parameter where the mask is not from 0 to 1. Cost: linear in the edges of `vertices`.
+/// \throw Invalid_parameter where the mask is not from 0 to 1, or the radius no length; Out_of_range. Cost: linear in
+/// the edges of `vertices`.
 template <class Mesh, class Kernel, class Target_map, class Mask_map>
 void fill_brush_targets(const std::vector<typename Mesh::Vertex_index>& vertices, const Mesh& mesh,
                         const Dab_3<Kernel>& dab, Target_map targets, const Mask_map& mask, bool inside_out = false) {
   const internal::Rounding_to_nearest rounding;
+  internal::check_dab(dab);
   internal::for_each_brush_target(vertices, mesh, dab, mask, inside_out,
                                   [&](auto v, const auto& place) { put(targets, v, place); });
 }

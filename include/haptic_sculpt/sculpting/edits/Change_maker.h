@@ -105,12 +105,17 @@ public:
 
   /// Whether the visitor hears of changes; at first it does.
   void tell_visitor(bool does) { tells_visitor_ = does; }
+  /// Whether the exception that ended the last make() or take_back() is the visitor's; what it hears of lineages comes
+  /// from a map.
+  bool has_visitor_thrown() const { return is_visitor_asked_; }
 
   /// The visitor hears of a move that was made elsewhere.
   void tell_moved(Vertex_index v) {
     if constexpr (has_visitor) {
       const Write_state::Asking asking(*writing_);
+      is_visitor_asked_ = true;
       visitor_.vertex_moved(v);
+      is_visitor_asked_ = false;
     }
   }
 
@@ -139,9 +144,11 @@ private:
   std::vector<Face_index> faces_;
   Round_marks is_taken_; ///< faces
   bool tells_visitor_ = true;
+  bool is_visitor_asked_ = false; ///< stays so where it throws
 
   Vertex_index vertex(std::size_t id) const { return ids_.vertex(id); }
   void begin(const Change& change, bool is_back, const Place& place) {
+    is_visitor_asked_ = false;
     if (change.edit.kind != Edit_kind::move && change.edit.kind != Edit_kind::shift)
       kept_.begin(change, is_back, place);
   }
@@ -324,12 +331,14 @@ private:
     const Write_state::Asking asking(*writing_);
     kept_.die(ids_, v, faces, halfedges);
     if (has_visitor && tells_visitor_) {
+      is_visitor_asked_ = true;
       for (const Face_index f : faces)
         visitor_.face_dies(f);
       for (const Halfedge_index h : halfedges)
         visitor_.edge_dies(mesh_->edge(h));
       if (v.is_valid())
         visitor_.vertex_dies(v, ids_.id(v));
+      is_visitor_asked_ = false;
     }
     writing_->begin();
   }
@@ -348,12 +357,14 @@ private:
       failure = std::current_exception();
     }
     if (has_visitor && tells_visitor_) {
+      is_visitor_asked_ = true;
       if (v.is_valid())
         visitor_.vertex_created(v, ids_.id(v));
       for (const Halfedge_index h : halfedges)
         visitor_.edge_created(mesh_->edge(h));
       for (const Face_index f : faces)
         visitor_.face_created(f);
+      is_visitor_asked_ = false;
     }
     if (failure)
       std::rethrow_exception(failure);

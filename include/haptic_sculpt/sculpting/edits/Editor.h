@@ -235,21 +235,25 @@ private:
 
   /// Makes this many changes undone that were taken back or made again last. The visitor hears of it until it throws.
   void reverse(std::size_t changes, bool is_back) {
-    bool is_heard = true;
+    bool is_tried_again = false; // the change at hand, as its record or a map has thrown before anything was written
     is_reversing_ = true;
     while (changes != 0) {
       try {
         is_back ? make_again() : take_back();
       } catch (...) {
-        if (writing_->is_under_way() || (!has_changed_ && !is_heard)) {
+        const bool is_of_visitor = changes_.has_visitor_thrown();
+        if (writing_->is_under_way() || (!has_changed_ && !is_of_visitor && is_tried_again)) {
           history_.end_stroke();
           is_reversing_ = false;
           writing_->begin(); // for good
           throw;
         }
-        changes_.tell_visitor(is_heard = false);
+        if (is_of_visitor)
+          changes_.tell_visitor(false);
+        is_tried_again = is_tried_again || !is_of_visitor;
       }
       changes -= has_changed_;
+      is_tried_again = is_tried_again && !has_changed_;
     }
     is_reversing_ = false;
     changes_.tell_visitor(true);

@@ -76,6 +76,7 @@ public:
     for (const Entry& saved : unwritten_)
       if (Entry* dead = find(dead_, saved.ids))
         dead->value = saved.value;
+    store_.erase(store_.begin(), number == no_id ? store_.end() : store_.lower_bound(first)); // none where it is off
     if (!is_recorded || number == no_id)
       return;
     if (is_reversal && number == broken_off_) // what it was to carry on is carried on when it is made
@@ -83,7 +84,6 @@ public:
                                  [this](const Entry& dead) { return find(unwritten_, dead.ids) == nullptr; }),
                   dead_.end());
     number_ = number;
-    store_.erase(store_.begin(), store_.lower_bound(first));
     alive_again_ = &(is_new ? fresh_ : store_)[number];
   }
 

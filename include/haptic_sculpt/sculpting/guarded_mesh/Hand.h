@@ -186,8 +186,10 @@ private:
   }
 
   void compare_candidates() {
-    if (is_held_once_) // whatever is near is the vertex or a neighbour at another drag
+    if (is_held_once_) { // whatever else is near is the vertex or a neighbour at another drag
+      watch_->check_faces(*corners_, guard_.star().faces);
       return;
+    }
     const auto& candidates = guard_.candidate_list().vertices();
     if (compared_look_ != guard_.looks()) {
       compared_look_ = guard_.looks();

@@ -185,11 +185,8 @@ private:
   }
 
   double sum_left() const {
-    const double unit = report_.asked_max > 0x1p900 ? 0x1p-64 : 1; // no sum overflows then
-    double sum = 0;
-    for (const Moving& v : vertices_)
-      sum += unit * distance(place(v), v.target);
-    return sum;
+    return sum_of_distances(
+        vertices_, [this](const Moving& v) { return place(v); }, report_.asked_max);
   }
 };
 

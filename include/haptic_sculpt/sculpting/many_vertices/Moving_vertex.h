@@ -29,6 +29,18 @@ inline double distance(const Coordinates& p, const Coordinates& q) {
   return std::sqrt(quick_dot(e, e)) / unit;
 }
 
+/// How far vertices are from their targets, as a sum. \param place `place(v)`, where one is now
+/// \param farthest no target was farther when the call began. Sums of one call are in one unit: they are compared.
+template <class Mesh, class Place>
+double sum_of_distances(const std::vector<Moving_vertex<Mesh>>& vertices, Place place, double farthest) {
+  // A mesh has fewer than 2^32 vertices, so that no sum overflows in either unit.
+  const double unit = farthest > 0x1p900 ? 0x1p-64 : 1;
+  double sum = 0;
+  for (const Moving_vertex<Mesh>& v : vertices)
+    sum += unit * distance(place(v), v.target);
+  return sum;
+}
+
 /// Vertices and their targets, each once, all read before anything moves. \param target_of `target_of(v)`, a point
 /// \throw Unknown_vertex, Out_of_range
 template <class Mesh, class Vertex_range, class Target_of>

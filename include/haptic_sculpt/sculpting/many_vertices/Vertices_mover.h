@@ -68,7 +68,6 @@ private:
   double asked_ = 0; ///< a sum of distances
 
   Coordinates place(Position k) const { return vertex_coordinates(sculptor_.mesh(), vertices_[k].vertex); }
-  double distance_left(Position k) const { return distance(place(k), vertices_[k].target); }
 
   Positions all_behind() const {
     Positions behind;
@@ -125,11 +124,8 @@ private:
   }
 
   double sum_left() const {
-    const double unit = report_->asked_max > 0x1p900 ? 0x1p-64 : 1; // no sum overflows then
-    double sum = 0;
-    for (Position k = 0; k < vertices_.size(); ++k)
-      sum += unit * distance_left(k);
-    return sum;
+    const auto at = [this](const Moving& v) { return vertex_coordinates(sculptor_.mesh(), v.vertex); };
+    return sum_of_distances(vertices_, at, report_->asked_max);
   }
 
   /// Whole ways, stopped and then sliding, until a pass gains little.

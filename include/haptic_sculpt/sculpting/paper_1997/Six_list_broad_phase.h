@@ -83,6 +83,15 @@ public:
     checklist_.reserve(faces);
   }
 
+  /// Bytes held, capacity included.
+  std::size_t memory() const {
+    std::size_t bytes = boxes_.capacity() * sizeof(Box_3) + alive_.capacity() + holding_.capacity() +
+                        (checklist_.capacity() + place_.capacity()) * sizeof(std::uint32_t);
+    for (const auto& entries : lists_)
+      bytes += entries.capacity() * sizeof(Entry);
+    return bytes;
+  }
+
 private:
   /// A bound and its face; sorted by the bound first.
   using Entry = std::pair<double, std::uint32_t>;

@@ -145,6 +145,7 @@ private:
   template <class Guard>
   Coordinates stop_instead(Guard& guard, const Coordinates& source, const Coordinates& target, const Drag_rules& rules,
                            Drag_result<Mesh>& result) {
+    walk_.return_to(source); // it may have gone and come back
     walk_.facets.clear();
     const Coordinates end = guard.leg(source, target, rules, result);
     if (end != source)

@@ -75,6 +75,8 @@ public:
   /// Makes room for this many faces in all and this many insertions, so that they allocate nothing; asked before edits,
   /// again and again. Here nothing is done: right where what comes and moves allocates nothing.
   void reserve(std::size_t /*faces*/, std::size_t /*insertions*/) {}
+  /// Bytes held that grow with the mesh, capacity included. Here none are known of.
+  std::size_t memory() const { return 0; }
 
 protected:
   /// For `most`: any number of faces.

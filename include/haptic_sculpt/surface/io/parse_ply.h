@@ -217,7 +217,7 @@ inline Face_soup parse_ply(std::string_view bytes) {
         soup.attributes.push_back({property.name, property.type, {}});
         attributes.push_back(i);
       } else {
-        soup.leave_out(attribute_in_words(property.name));
+        soup.leave_out(attribute_in_words(property.name) + (is_face ? " of faces" : ""));
       }
     }
     if (!is_vertex && !is_face && element.count > 0)

@@ -101,9 +101,7 @@ private:
   }
 
   static bool close(Work_mesh& mesh) {
-    std::vector<Work_mesh::Halfedge_index> holes;
-    CGAL::Polygon_mesh_processing::extract_boundary_cycles(mesh, std::back_inserter(holes));
-    for (const auto h : holes) {
+    for (const auto h : holes_of(mesh)) {
       close_hole(mesh, h);
       if (mesh.is_border(h))
         return false;

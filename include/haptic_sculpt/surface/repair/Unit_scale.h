@@ -38,18 +38,22 @@ public:
 
   double down(double x) const { return std::ldexp(x, -exponent_); }
   double up(double x) const { return std::ldexp(x, exponent_); }
-  void down(Face_soup& soup) const { scale(soup, -exponent_); }
-  void up(Face_soup& soup) const { scale(soup, exponent_); }
+  /// Points that no face has stay where they are: no number may hold where they would come to.
+  void down(Face_soup& soup) const {
+    std::vector<bool> is_left(soup.points.size(), true);
+    for (const auto corner : soup.corners)
+      is_left[corner] = false;
+    scale(soup, -exponent_, is_left);
+  }
+  /// \pre points that down() left where they were are gone
+  void up(Face_soup& soup) const { scale(soup, exponent_, std::vector<bool>(soup.points.size(), false)); }
 
 private:
-  /// Points that no face has stay where they are: no number may hold where they would come to.
-  static void scale(Face_soup& soup, int exponent) {
-    std::vector<bool> is_done(soup.points.size(), exponent == 0);
-    for (const auto corner : soup.corners)
-      if (!is_done[corner]) {
-        auto& p = soup.points[corner];
+  static void scale(Face_soup& soup, int exponent, const std::vector<bool>& is_left) {
+    for (std::size_t v = 0; v < soup.points.size(); ++v)
+      if (!is_left[v]) {
+        auto& p = soup.points[v];
         p = Face_soup::Point_3(std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent));
-        is_done[corner] = true;
       }
   }
 

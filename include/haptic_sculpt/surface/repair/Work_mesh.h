@@ -36,6 +36,9 @@ public:
     return static_cast<const Base&>(mesh).prev(h);
   }
 
+  /// CGAL 6 clears a Surface_mesh at once, and what is derived from one in quadratic time.
+  friend void remove_all_elements(Work_mesh& mesh) { mesh.clear_without_removing_property_maps(); }
+
 private:
   mutable std::size_t steps_ = 0;
 };

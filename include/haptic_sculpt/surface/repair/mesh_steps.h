@@ -10,7 +10,6 @@
 #include <haptic_sculpt/surface/validate.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-#include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
@@ -153,13 +152,24 @@ inline bool is_pinched(const Work_mesh& mesh, Work_mesh::Halfedge_index hole) {
   return false;
 }
 
+/// A half-edge of each hole. CGAL's function is not where it was since 6.2, and warns.
+inline std::vector<Work_mesh::Halfedge_index> holes_of(const Work_mesh& mesh) {
+  std::vector<Work_mesh::Halfedge_index> holes;
+  std::vector<bool> is_met(mesh.num_halfedges(), false);
+  for (const auto h : mesh.halfedges())
+    if (mesh.is_border(h) && !is_met[h]) {
+      holes.push_back(h);
+      for (const auto g : CGAL::halfedges_around_face(h, mesh))
+        is_met[g] = true;
+    }
+  return holes;
+}
+
 /// A hole that CGAL finds no triangles for stays.
 inline Repair_step close_holes(Work_mesh& mesh, std::size_t most_edges) {
-  std::vector<Work_mesh::Halfedge_index> holes;
-  CGAL::Polygon_mesh_processing::extract_boundary_cycles(mesh, std::back_inserter(holes));
   std::size_t closed = 0, left = 0;
   const std::size_t faces = mesh.number_of_faces();
-  for (const auto h : holes) {
+  for (const auto h : holes_of(mesh)) {
     if (CGAL::halfedges_around_face(h, mesh).size() <= most_edges && !is_pinched(mesh, h))
       close_hole(mesh, h);
     ++(mesh.is_border(h) ? left : closed);
