@@ -306,6 +306,8 @@ private:
     // slide looks on from there, the others stay.
     promises.add(lazy_long, "a push through the object comes near the contact", drags_.through_asked,
                  drags_.through_lazy, response_ == Response::slide ? 0 : 1e-3);
+    promises.add(lazy_long, "a push through the object that stays names what holds it", drags_.through_stayed,
+                 drags_.through_unexplained, 1e-2);
     promises.add(lazy_short, "short drags of ordinary meshes arrive", drags_.short_asked,
                  drags_.short_asked - drags_.short_arrived, 0.05);
     promises.add(lazy_creation, "feasible creations are made", edits_.feasible_creations(),

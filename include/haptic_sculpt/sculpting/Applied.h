@@ -9,6 +9,7 @@
 #include <haptic_sculpt/sculpting/edits/Sculptor_access.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/response/Slide_path.h>
+#include <haptic_sculpt/surface/make_room.h>
 
 namespace haptic_sculpt {
 
@@ -114,7 +115,7 @@ private:
     Done result;
     result.vertex = v;
     const auto drag_to = [&](const std::array<double, 3>& p) {
-      result.edit.legs.reserve(result.edit.legs.size() + Slide_path::most_legs); // before it: memory may run out
+      make_room(result.edit.legs, result.edit.legs.size() + Slide_path::most_legs); // before it: memory may run out
       result.drag = Sculptor_access::guarded(sculptor).drag(v, point(p), &path_, std::nullopt);
       for (std::size_t k = 1; k < path_.size(); ++k)
         if (path_[k] != path_[k - 1]) // +0 and -0 are one place

@@ -29,7 +29,8 @@ struct Contact_3 {
   /// triangle is JGI.
   std::array<Vertex_index, 3> vertices;
 
-  /// Of length 1, towards the side J came from: the direction in which the contact pushes. Floating point.
+  /// Of length 1, towards the side J came from: the direction in which the contact pushes. Floating point. Of a refused
+  /// probe neither this nor the plane is given.
   Vector_3 normal = {0, 0, 0};
 
   /// The three points of the contact plane, exact. Do not span it where `is_flat`; G, I, I for `delta`.

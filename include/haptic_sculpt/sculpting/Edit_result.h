@@ -46,8 +46,8 @@ template <class Mesh>
 struct Edit_result {
   /// Where it was done: a vertex that is in the mesh now, and that the edit has made, moved or given other faces. One
   /// of these for each edit: the new one; the neighbour into which another was drawn; an end of the edge that a flip
-  /// has made; of a shift the one with the largest index; of undo and redo that of the change made last. None where
-  /// nothing was done: of a refused edit, and of strokes.
+  /// has made; of a shift the one with the largest index; of undo and redo that of the change made last; of a move its
+  /// own, also where it stayed. None where nothing was done: of a refused edit, and of strokes.
   std::optional<typename Mesh::Vertex_index> vertex;
   std::optional<Refusal<Mesh>> refusal; ///< none: the edit was done
 

@@ -6,7 +6,8 @@
 
 namespace haptic_sculpt {
 
-/// How much is kept for undo and redo together. Where there is more, the oldest steps are forgotten, each as a whole.
+/// How much is kept for undo and redo together. Where there is more, the oldest steps are forgotten, each as a whole. A
+/// step is recorded before it is forgotten, and the room that it took stays for others.
 struct History_limit {
   std::size_t steps = std::numeric_limits<std::size_t>::max(); ///< at first without limit
   std::size_t bytes = std::numeric_limits<std::size_t>::max(); ///< at first without limit; a drag alone takes 72

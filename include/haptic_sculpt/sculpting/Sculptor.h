@@ -277,9 +277,9 @@ public:
   ///@}
 
   /// A point that touches the surface, to be dragged about the scene; changes nothing (doc/use/probes.md). Refused
-  /// where p is on a face, nearer to one than the clearance, or inside of a solid, of which a cavity is no part. Any
-  /// change of the mesh ends it. Does not end the grab at hand. \throw Out_of_range, Invalid_parameter, Mesh_changed.
-  /// Cost: log n and the faces whose boxes a ray meets.
+  /// where p is on a face, not farther from one than the clearance, or inside of a solid, of which a cavity is no part.
+  /// Any change of the mesh ends it. Does not end the grab at hand. \throw Out_of_range, Invalid_parameter,
+  /// Mesh_changed. Cost: log n and the faces whose boxes a ray meets.
   Probe_type probe(const Point& p, Probe_start start = Probe_start::outside) {
     return Probe_type(*this, p, guarded_.refuse_probe(p, start));
   }
@@ -323,7 +323,8 @@ public:
   /// \throw Mesh_changed if anything was changed by others, points or connectivity. Cost: reads all of the mesh.
   void check_unchanged() const { guarded_.check_unchanged(); }
 
-  /// Bytes held that grow with the mesh, capacity included. Not the mesh itself, nor the history.
+  /// Bytes held that grow with the mesh, capacity included. Not the mesh itself, nor the history, nor what moves of
+  /// many vertices leave for the next one.
   std::size_t memory() const { return guarded_.memory(); }
 
 private:

@@ -26,7 +26,8 @@ namespace haptic_sculpt {
 /// What decimate() did.
 struct Decimation_report {
   std::size_t collapsed = 0; ///< edges; each takes a vertex, three edges and two faces with it
-  std::size_t refused = 0;   ///< times an edge could not collapse without an intersection, and was left for later
+  std::size_t refused = 0;   ///< times an edge was left for later: an intersection, delta, connectivity, a bound on
+                             ///< the work, or a normal that would turn was in the way
 };
 
 /// Simplifies the mesh as `CGAL::Surface_mesh_simplification::edge_collapse` does, cheapest edge first, with CGAL's

@@ -29,7 +29,8 @@ namespace haptic_sculpt {
 /// Whatever power of two all coordinates and lengths are multiplied by, the same comes out, multiplied by it, bit for
 /// bit, as long as no coordinate is subnormal or out of range.
 /// \throw Out_of_range, Invalid_parameter: nothing has changed; Mesh_changed, std::bad_alloc, and what the progress
-/// function throws: what has changed by then stays so. Cost: about 10 microseconds an operation.
+/// function throws: what has changed by then stays so. Cost: about 10 microseconds an operation, and an iteration some
+/// passes over all of the mesh, whatever the range.
 template <class Face_range, class Sculptor, class Named_parameters = CGAL::parameters::Default_named_parameters>
 Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor, double target_edge_length,
                                      const Named_parameters& np = CGAL::parameters::default_values(),

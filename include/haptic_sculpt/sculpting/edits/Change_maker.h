@@ -205,12 +205,12 @@ private:
     return edit.ways.empty() ? Vertex_index() : vertex(edit.ways.back().first);
   }
 
-  /// Each face once, in any order. Cost: linear in the faces. Where half of all vertices move, or more, all faces are
-  /// looked at in their order, which takes a fraction of the time: nothing waits for halfedges.
+  /// Each face once, in any order. Cost: linear in the faces. Where half of all vertices move, or more (removed ones
+  /// count), all faces are looked at in their order, which takes a fraction of the time: nothing waits for halfedges.
   void collect_faces_around(const std::vector<std::pair<std::size_t, double>>& ways) {
     faces_.clear();
     is_taken_.begin(std::max<std::size_t>(mesh_->num_faces(), mesh_->num_vertices()));
-    if (2 * ways.size() >= mesh_->number_of_vertices()) {
+    if (2 * ways.size() >= mesh_->num_vertices()) {
       for (const auto& way : ways)
         is_taken_.mark(static_cast<std::size_t>(vertex(way.first)));
       const auto moves = [&](Vertex_index v) { return is_taken_.is_marked(static_cast<std::size_t>(v)); };

@@ -18,8 +18,10 @@ public:
   /// Has it look at what these vertices may meet, each in the box of its place and its target, along any axis.
   template <class Broad_phase>
   void look_around(Broad_phase& broad_phase, const Vertex_targets<Mesh>& targets) {
-    constexpr std::size_t many = 8; // an eighth of all vertices: then the search costs more than it spares
-    are_many_ = many * targets.size() >= mesh_->number_of_vertices();
+    // An eighth of all vertices, removed ones too, over which the other way runs: then the search costs more than it
+    // spares.
+    constexpr std::size_t many = 8;
+    are_many_ = many * targets.size() >= mesh_->num_vertices();
     if (!are_many_)
       return near_move_.take(on_the_way_.find(*mesh_, broad_phase, targets), false);
     if (whole_move_.has_taken_all())

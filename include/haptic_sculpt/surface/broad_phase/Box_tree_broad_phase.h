@@ -212,10 +212,7 @@ private:
     const std::size_t first = faces.size();
     const auto put = [&faces](std::uint32_t f) { faces.push_back(Face_index(f)); };
     const auto are_too_many = [&] { return faces.size() - first > most; };
-    if (!tree_.visit(passing, put, are_too_many))
-      return false;
-    overflow_.visit(passing, put);
-    return !are_too_many();
+    return tree_.visit(passing, put, are_too_many) && overflow_.visit(passing, put, are_too_many);
   }
 };
 

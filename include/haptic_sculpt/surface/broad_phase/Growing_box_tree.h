@@ -73,11 +73,12 @@ public:
     }
   }
 
-  /// Visits the items whose boxes pass; `passing(Box_node)` is a mask of eight.
-  template <class Passing, class Visit>
-  void visit(const Passing& passing, const Visit& found) {
+  /// Visits the items whose boxes pass, `passing(Box_node)` being a mask of eight, until `found(item)` has been called
+  /// for all those of a node and `is_enough()`. Returns whether all were visited.
+  template <class Passing, class Visit, class Is_enough>
+  bool visit(const Passing& passing, const Visit& found, const Is_enough& is_enough) {
     if (root_ == none)
-      return;
+      return true;
     stack_.assign(1, root_);
     while (!stack_.empty()) {
       const Node& n = node(stack_.back());
@@ -91,7 +92,10 @@ public:
           stack_.push_back(child);
         }
       }
+      if (n.height == 0 && is_enough())
+        return false;
     }
+    return true;
   }
 
   /// Visits items as Box_tree_broad_phase does. Returns the last limit.
