@@ -156,7 +156,8 @@ def functions(report):
         ours += c["guarded"]["pairs"]
         if c["plain"]["seconds"] > 0:
             ratios.append(c["guarded"]["seconds"] / c["plain"]["seconds"])
-        rows.append([c["mesh"], c["function"], c["way"], c["plain"]["pairs"], c["guarded"]["pairs"], "" if c["share"] is None else percent(c["share"]), seconds_text(c["plain"]["seconds"] or 1e-9),
+        rows.append([c["mesh"], c["function"], c["way"], c["plain"]["pairs"], c["guarded"]["pairs"],
+                     "" if c["share"] is None else percent(c["share"]), seconds_text(c["plain"]["seconds"] or 1e-9),
                      seconds_text(c["guarded"]["seconds"] or 1e-9)])
     alone = [c["plain"]["seconds"] for c in report["comparisons"]]
     guarded = [c["guarded"]["seconds"] for c in report["comparisons"]]

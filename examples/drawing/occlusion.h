@@ -2,17 +2,13 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/brushes/scaled_directions.h>
+#include <haptic_sculpt/surface/Aabb_traits.h>
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Surface_mesh.h>
-#if CGAL_VERSION_NR >= 1060000000
-#include <CGAL/AABB_traits_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#endif
 
 #include <cmath>
 #include <vector>
@@ -38,12 +34,7 @@ std::vector<float> openness(const CGAL::Surface_mesh<Point>& mesh) {
   for (const auto f : mesh.faces())
     if (!CGAL::Polygon_mesh_processing::is_degenerate_triangle_face(f, mesh))
       faces.push_back(f);
-#if CGAL_VERSION_NR >= 1060000000
-  using Traits = CGAL::AABB_traits_3<Kernel, Primitive>;
-#else
-  using Traits = CGAL::AABB_traits<Kernel, Primitive>;
-#endif
-  CGAL::AABB_tree<Traits> tree(faces.begin(), faces.end(), mesh);
+  CGAL::AABB_tree<Aabb_traits<Kernel, Primitive>> tree(faces.begin(), faces.end(), mesh);
 
   std::vector<float> result(mesh.num_vertices(), 1);
   for (const auto v : mesh.vertices()) {

@@ -293,10 +293,6 @@ private:
   }
 };
 
-bool sets_something(Kind kind) {
-  return kind >= Kind::view && kind <= Kind::depth;
-}
-
 } // namespace
 
 std::vector<Action> read_actions(const std::string& text, const std::string& name) {
@@ -312,7 +308,7 @@ std::vector<Action> read_actions(const std::string& text, const std::string& nam
     Line words(line, name, number);
     if (const auto first = words.next())
       Reader(actions, words, number).read(*first);
-    if (!actions.empty() && actions.back().line == number && sets_something(actions.back().kind))
+    if (!actions.empty() && actions.back().line == number && actions.back().sets_something())
       actions.back().word = line.substr(0, line.find('#')); // as it is recorded
   }
   return actions;

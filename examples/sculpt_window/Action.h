@@ -53,6 +53,8 @@ struct Action {
   std::string word; ///< key, file; press: button and modifiers; scroll: its modifier; of what it sets: the line
   int which = 0;    ///< of the tools or brushes; symmetry: a bit for each axis
   std::array<double, 3> numbers{};
+
+  bool sets_something() const { return kind >= Kind::view && kind <= Kind::depth; }
 };
 
 /// A script that cannot be read. Says the line.

@@ -337,7 +337,8 @@ check("press left" in recorded and "wait 0." in recorded, f"a recording: {record
 window(BALL, "--no-log", "--samples", 0, script=recorded + f"settle\nsave {at('played.off')}\nsettle\nquit\n", what="a recording played")
 check(os.path.exists(at("played.off")) and points(at("played.off")) != points(BALL), "a recording sculpts when played")
 apart = max(math.dist(a, b) for a, b in zip(points(at("played.off")), points(at("recorded.off"))))
-check("tool drag" in recorded and apart < 1e-3, f"a recording played makes about the same mesh: {apart} apart, {recorded}")
+check("tool drag" in recorded and apart < 1e-3,
+      f"a recording played makes about the same mesh: {apart} apart, {recorded}")
 for script, part in (("fly 1 2 3\n", "line 1: 'fly'"), ("\nkey f99\n", "line 2: 'f99'"), ("move 1\n", "is expected"), ("drag 1 2 3 4 0\n", "steps"),
                      ("drag 0 0 1 1 100000\n" * 11, "1000000 actions"), ("a" * 10001, "10000 bytes")):
     _, err = window(BALL, "--no-log", script=script, code=4, what=script)

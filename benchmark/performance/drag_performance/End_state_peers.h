@@ -6,15 +6,11 @@
 #include "drag_performance/workload_meshes.h"
 
 #include <haptic_sculpt/sculpting/first_impact.h>
+#include <haptic_sculpt/surface/Aabb_traits.h>
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#if CGAL_VERSION_NR >= 1060000000
-#include <CGAL/AABB_traits_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#endif
 
 namespace haptic_sculpt::benchmark {
 
@@ -48,12 +44,7 @@ public:
 
 private:
   using Kernel = meshes::Kernel;
-  using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
-#if CGAL_VERSION_NR >= 1060000000
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Primitive>>;
-#else
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-#endif
+  using Tree = CGAL::AABB_tree<Aabb_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Mesh>>>;
   using Face_index = Mesh::Face_index;
 
   std::string name_;

@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/device/leg_frame.h>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,17 @@ private:
   std::vector<std::string> violations_;
 };
 
+namespace internal {
+
+/// Relative, of the sum of two moments of inertia: a disc's sum is its third moment, so its rounded moments may miss it
+/// by a few units in the last place; of a double, where a wider type was given them as such.
+template <class S> S rounding_of_moments() {
+  const S own(std::numeric_limits<S>::epsilon()), of_double(std::numeric_limits<double>::epsilon());
+  return S(16) * (own < of_double ? of_double : own);
+}
+
+} // namespace internal
+
 /// Everything that is wrong with a description, one sentence each; empty if it can be used.
 ///
 /// The kinematics forms products of four lengths squared, so eighth powers have to fit in the scalar's range, with
@@ -127,11 +139,7 @@ template <class S> std::vector<std::string> violations(const Device_description<
   if (inertia_is_sound)
     for (int axis = 0; axis < 3; ++axis) {
       const S others = d.platform_inertia.sum() - d.platform_inertia[axis];
-      // A disc meets this with equality, so its rounded moments may miss it by a few units in the last place: of a
-      // double, where a wider type was given them as such.
-      const S own(std::numeric_limits<S>::epsilon()), of_double(std::numeric_limits<double>::epsilon());
-      const S unit = own < of_double ? of_double : own;
-      if (d.platform_inertia[axis] > others * (S(1) + S(16) * unit))
+      if (d.platform_inertia[axis] > others * (S(1) + internal::rounding_of_moments<S>()))
         found.push_back("platform_inertia (I): one moment exceeds the sum of the two others, which no body has");
     }
   for (int leg = 0; leg < 3; ++leg)

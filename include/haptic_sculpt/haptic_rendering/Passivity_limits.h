@@ -193,7 +193,8 @@ struct Passivity_limits {
   /// Whether the coupling can give no energy to any hand, and is calm. \pre the damping is the one that the limits were
   /// made for
   bool permits(const Virtual_coupling& coupling) const { return coupling.stiffness <= largest_stiffness(); }
-  /// Of the apparent mass: an eigenvalue, which compilers may round otherwise at two places.
+  /// Part of the apparent mass: an eigenvalue of a matrix whose condition is some hundreds, which compilers may round
+  /// otherwise at two places. Masses that make a difference differ by far more.
   static constexpr double rounding_of_mass = 1e-9;
   /// Whether they were made for these, N s/m, s, ticks, Hz, for the conditions at which these forces fade, and a device
   /// with the Jacobian, masses, friction and encoders of this one.

@@ -62,8 +62,8 @@ struct Move_parameters {
   /// is asked before each round of an axis move, which is made whole or not at all, and goes to each drag as the bound
   /// on its work. Then the call ends with what stood; the same call of move_vertices() goes on, the others begin anew.
   /// Not counted are pairs of faces side by side, which are looked over: n^2 / 2 at a vertex of valence n. Counted,
-  /// never timed: the same with any broad phase and any number of threads (doc/use/work.md). Cost: each axis
-  /// move searches its pairs twice.
+  /// never timed: the same with any broad phase and any number of threads (doc/use/work.md). Cost: each axis move
+  /// searches its pairs twice.
   Move_parameters& most_pairs(std::optional<std::size_t> n) {
     pair_limit = n;
     return *this;

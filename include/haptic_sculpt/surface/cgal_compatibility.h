@@ -2,8 +2,8 @@
 #pragma once
 
 /// \file
-/// The one place that knows CGAL 5.5 from CGAL 6, but for the search tree of sculpting/many_vertices/Input_surface.h,
-/// whose headers only remeshing is to pay for.
+/// The one place that knows CGAL 5.5 from CGAL 6, but for what few are to pay for: trees (Aabb_traits.h,
+/// nearest_point_tree.h) and what repairs (repair/Work_mesh.h, repair/mesh_steps.h).
 
 #include <haptic_sculpt/no_fast_math.h>
 

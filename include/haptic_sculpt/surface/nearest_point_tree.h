@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/surface/Aabb_traits.h>
+
 #include <CGAL/AABB_tree.h>
 #if CGAL_VERSION_NR >= 1060000000
-#include <CGAL/AABB_traits_3.h>
 #include <CGAL/AABB_triangle_primitive_3.h>
 #else
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #endif
 
@@ -54,15 +54,17 @@ struct Nearest_point_kernel : Kernel {
   Construct_projected_point_3 construct_projected_point_3_object() const { return {}; }
 };
 
+#if CGAL_VERSION_NR >= 1060000000
+template <class Kernel, class Triangle_iterator>
+using Triangle_primitive = CGAL::AABB_triangle_primitive_3<Kernel, Triangle_iterator>;
+#else
+template <class Kernel, class Triangle_iterator>
+using Triangle_primitive = CGAL::AABB_triangle_primitive<Kernel, Triangle_iterator>;
+#endif
+
 /// CGAL's tree over triangles, for nearest points. \pre coordinates whose squares are in the range of doubles
 template <class Kernel, class Triangle_iterator>
-#if CGAL_VERSION_NR >= 1060000000
-using Nearest_point_tree = CGAL::AABB_tree<CGAL::AABB_traits_3<
-    Nearest_point_kernel<Kernel>, CGAL::AABB_triangle_primitive_3<Nearest_point_kernel<Kernel>, Triangle_iterator>>>;
-#else
-using Nearest_point_tree =
-    CGAL::AABB_tree<CGAL::AABB_traits<Nearest_point_kernel<Kernel>,
-                                      CGAL::AABB_triangle_primitive<Nearest_point_kernel<Kernel>, Triangle_iterator>>>;
-#endif
+using Nearest_point_tree = CGAL::AABB_tree<
+    Aabb_traits<Nearest_point_kernel<Kernel>, Triangle_primitive<Nearest_point_kernel<Kernel>, Triangle_iterator>>>;
 
 } // namespace haptic_sculpt::internal

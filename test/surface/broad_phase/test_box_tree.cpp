@@ -57,6 +57,33 @@ BOOST_AUTO_TEST_CASE(a_spike_that_is_drawn_in_asks_for_few_faces) {
              }) < 0.05);
 }
 
+// Among what the tree was built of, and among what has come since.
+BOOST_AUTO_TEST_CASE(a_query_that_may_find_few_is_given_up) {
+  constexpr std::size_t most = 100;
+  for (const bool comes_later : {false, true}) {
+    Mesh mesh = meshes::to_mesh(meshes::tetrahedron(4));
+    const Mesh ball = meshes::to_mesh(meshes::icosphere(4).scale_and_move(0.5, 3, 1, 1));
+    if (!comes_later)
+      mesh += ball;
+    Box_tree_broad_phase<Mesh> tree(mesh);
+    if (comes_later) {
+      const std::size_t first = mesh.num_faces();
+      mesh += ball;
+      tree.faces_inserted(
+          std::vector<Face_index>(mesh.faces().begin() + static_cast<std::ptrdiff_t>(first), mesh.faces().end()));
+    }
+    internal::Star<Mesh> star;
+    star.collect(mesh, Vertex_index(0));
+    const Swept_star_3 through = star.swept(vertex_coordinates(mesh, Vertex_index(0)), {12, 0, 0});
+    std::vector<Face_index> all, few;
+    BOOST_TEST(tree.query_star(through, all));
+    BOOST_TEST(all.size() > 3 * most);
+    BOOST_TEST(!tree.query_star(through, few, most));
+    BOOST_TEST(few.size() > most);
+    BOOST_TEST(few.size() <= most + 8); // those of a leaf
+  }
+}
+
 BOOST_AUTO_TEST_CASE(fetching_ahead_changes_no_answer) {
   Mesh mesh = meshes::to_mesh(meshes::torus(320, 160)); // smaller trees are taken to be in cache
   Random random(seed());

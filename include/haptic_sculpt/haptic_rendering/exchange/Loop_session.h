@@ -44,8 +44,7 @@ public:
 
   /// What a command or task throws is its answer, what the loop throws a fault of the loop: the force is given anyway.
   /// A journal that has overrun ends the loop by Loop_fault::log, once: after a restart nothing is in it any more.
-  /// Beside another fault it does so after the restart. Of a scene that is left
-  /// it does so in the one that is entered.
+  /// Beside another fault it does so after the restart; of a scene that is left, in the one that is entered.
   template <class Reading>
   const auto& tick(const Reading& reading) noexcept {
     if (queue_ != nullptr)

@@ -141,8 +141,8 @@ private:
     return touch.is_free || held <= paid ? 1 : paid > 0 ? paid / held : 0;
   }
 
-  /// Snap and burst hold some mJ; and where a proxy falls, the slew limit leaves a force for a while, in
-  /// which a hand at 0.3 m/s is given half of what is taken here: 13 mJ by default.
+  /// Snap and burst hold some mJ; and where a proxy falls, the slew limit leaves a force for a while, in which a hand
+  /// at 0.3 m/s is given half of what is taken here: 13 mJ by default.
   static double reserve_of(const Force_limits& limits) {
     return 0.05 + 0.3 * limits.largest * limits.largest / limits.slew;
   }

@@ -40,21 +40,22 @@ public:
   double up(double x) const { return std::ldexp(x, exponent_); }
   /// Points that no face has stay where they are: no number may hold where they would come to.
   void down(Face_soup& soup) const {
-    std::vector<bool> is_left(soup.points.size(), true);
+    std::vector<bool> has_face(soup.points.size(), false);
     for (const auto corner : soup.corners)
-      is_left[corner] = false;
-    scale(soup, -exponent_, is_left);
+      has_face[corner] = true;
+    for (std::size_t v = 0; v < soup.points.size(); ++v)
+      if (has_face[v])
+        scale(soup.points[v], -exponent_);
   }
   /// \pre points that down() left where they were are gone
-  void up(Face_soup& soup) const { scale(soup, exponent_, std::vector<bool>(soup.points.size(), false)); }
+  void up(Face_soup& soup) const {
+    for (auto& p : soup.points)
+      scale(p, exponent_);
+  }
 
 private:
-  static void scale(Face_soup& soup, int exponent, const std::vector<bool>& is_left) {
-    for (std::size_t v = 0; v < soup.points.size(); ++v)
-      if (!is_left[v]) {
-        auto& p = soup.points[v];
-        p = Face_soup::Point_3(std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent));
-      }
+  static void scale(Face_soup::Point_3& p, int exponent) {
+    p = Face_soup::Point_3(std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent));
   }
 
   int exponent_ = 0;
