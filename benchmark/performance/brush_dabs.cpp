@@ -3,6 +3,7 @@
 // that is gone; the mesh is validated at the end.
 #include "Benchmark_program.h"
 #include "meshes/generated_meshes.h"
+#include "quantile.h"
 
 #include <haptic_sculpt/sculpting.h>
 #include <haptic_sculpt/surface.h>
@@ -26,11 +27,6 @@ constexpr int not_embedded = 10;
 
 double milliseconds() {
   return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
-double quantile(std::vector<double> values, double q) {
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
 }
 
 /// How far from its centre a dab touches as many vertices as asked.
@@ -114,15 +110,15 @@ int main(int argc, char** argv) {
       rows.push_back({{"unit", unit},
                       {"brush", name},
                       {"dabs", dabs},
-                      {"vertices_p50", quantile(tally.touched, 0.5)},
-                      {"ms_p50", quantile(tally.times, 0.5)},
-                      {"ms_p99", quantile(tally.times, 0.99)},
-                      {"ms_max", quantile(tally.times, 1)},
+                      {"vertices_p50", benchmark::quantile(tally.touched, 0.5)},
+                      {"ms_p50", benchmark::quantile(tally.times, 0.5)},
+                      {"ms_p99", benchmark::quantile(tally.times, 0.99)},
+                      {"ms_max", benchmark::quantile(tally.times, 1)},
                       {"share_of_the_way", share},
                       {"is_valid", is_valid}});
-      std::printf("%-8s %8.0f %8.2f %8.2f %8.2f %8.4f %10s\n", name, quantile(tally.touched, 0.5),
-                  quantile(tally.times, 0.5), quantile(tally.times, 0.99), quantile(tally.times, 1), share,
-                  is_valid ? "yes" : "NO");
+      std::printf("%-8s %8.0f %8.2f %8.2f %8.2f %8.4f %10s\n", name, benchmark::quantile(tally.touched, 0.5),
+                  benchmark::quantile(tally.times, 0.5), benchmark::quantile(tally.times, 0.99),
+                  benchmark::quantile(tally.times, 1), share, is_valid ? "yes" : "NO");
       std::fflush(stdout);
     }
     promises.add(not_embedded, "a mesh is embedded after all dabs", asked, broken);

@@ -145,6 +145,8 @@ def threads(report):
                   [[r["threads"] or "none", *(seconds_text(r[key]) for key in names), "yes" if r["same_bits"] else "no"] for r in rows])
     most = max(rows, key=lambda r: r["threads"])
     alone = next((r for r in rows if r["threads"] == 1), most)
+    if most["threads"] == 0:
+        return []  # compiled without oneTBB: nothing to compare
     ratio = alone["shift_s"] / most["shift_s"]
     return [Finding("threads", f"With {most['threads']} threads all {report['triangles']:,} triangles move along one axis in {seconds_text(most['shift_s'])}, {ratio:.2g} times as fast as with one; "
                     f"{'the bits are the same' if all(r['same_bits'] for r in rows) else 'the bits differ'}.", f"{ratio:.2g}×", f"as fast, {most['threads']} threads for one",

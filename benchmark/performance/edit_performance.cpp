@@ -4,6 +4,7 @@
 #include "Benchmark_program.h"
 #include "Query_timer.h"
 #include "meshes/generated_meshes.h"
+#include "quantile.h"
 
 #include <haptic_sculpt/sculpting.h>
 #include <haptic_sculpt/surface.h>
@@ -40,10 +41,7 @@ struct Times {
 };
 
 Json summary(std::vector<double> times) {
-  std::sort(times.begin(), times.end());
-  const auto at = [&](double share) {
-    return times.empty() ? 0 : times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))];
-  };
+  const auto at = [&times](double share) { return benchmark::quantile(times, share); };
   return {{"samples", times.size()}, {"p50", at(0.5)}, {"p99", at(0.99)}, {"p999", at(0.999)}, {"max", at(1)}};
 }
 

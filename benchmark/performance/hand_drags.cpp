@@ -3,6 +3,7 @@
 // bound on the work of a drag, and how far the bounded drag is then from the unbounded one.
 #include "Benchmark_program.h"
 #include "meshes/generated_meshes.h"
+#include "quantile.h"
 
 #include <haptic_sculpt/sculpting.h>
 
@@ -37,12 +38,7 @@ double cpu_microseconds() {
 }
 
 Json quantiles(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double q) {
-    return values.empty()
-               ? 0
-               : values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
-  };
+  const auto at = [&values](double q) { return benchmark::quantile(values, q); };
   return {{"count", values.size()}, {"p50", at(0.5)},      {"p99", at(0.99)},
           {"p999", at(0.999)},      {"p9999", at(0.9999)}, {"max", at(1)}};
 }

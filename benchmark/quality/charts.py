@@ -123,7 +123,7 @@ def stops(report):
     if not points:
         return []
     measured = sum(r["stops_measured"] for of in by.values() for r in of)
-    worst = max(p[2] for p in points)
+    worst = max(r["stop_error_max_clearances"] for of in by.values() for r in of)
     beyond = sum(r["stops_beyond_two_clearances"] for of in by.values() for r in of)
     return [Finding("drags", f"A stopped vertex ends at most {worst:.3g} clearances from what stops it, of {measured:,} stops; {beyond:,} beyond two.",
                     f"{worst:.3g} c", "largest distance of a stop, in clearances", speed_error(points, "largest distance, clearances", "median time"),

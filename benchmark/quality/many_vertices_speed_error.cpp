@@ -229,8 +229,7 @@ double seconds_since(std::clock_t begin) {
   return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
-Json row(const Motion& m, const char* method, std::clock_t begin, const Mesh& mesh, bool has_passed) {
-  const double seconds = seconds_since(begin); // what follows is not timed
+Json row(const Motion& m, const char* method, double seconds, const Mesh& mesh, bool has_passed = false) {
   Json result = {{"motion", m.name},
                  {"method", method},
                  {"vertices", mesh.number_of_vertices()},
@@ -254,7 +253,7 @@ void measure(const Motion& m, Json& rows) {
     const std::clock_t begin = std::clock();
     Sculptor<Mesh> sculptor(mesh);
     move_vertices(sculptor, mesh.vertices(), get(CGAL::vertex_point, targets));
-    rows.push_back(row(m, "move_vertices", begin, mesh, false));
+    rows.push_back(row(m, "move_vertices", seconds_since(begin), mesh));
   }
   {
     Mesh mesh = m.start;
@@ -264,15 +263,14 @@ void measure(const Motion& m, Json& rows) {
       for (const Vertex_index v : m.start.vertices())
         if (mesh.point(v) != m.targets[v])
           sculptor.grab(v).drag_to(m.targets[v]);
-    rows.push_back(row(m, "one after the other", begin, mesh, false));
+    rows.push_back(row(m, "one after the other", seconds_since(begin), mesh));
   }
   {
     Mesh mesh = m.start;
     const std::clock_t begin = std::clock();
     const double way = line_search(m, mesh);
-    Json found = row(m, "halving on does_self_intersect", begin, mesh, false);
-    found["passed_through"] = way > 0 && passed_through(m, way);
-    rows.push_back(found);
+    const double seconds = seconds_since(begin); // what follows is not timed
+    rows.push_back(row(m, "halving on does_self_intersect", seconds, mesh, way > 0 && passed_through(m, way)));
   }
 }
 
@@ -284,11 +282,11 @@ void measure_motion(const Motion& m, Json& rows) {
     Sculptor<Mesh> sculptor(mesh, Sculptor_parameters().known_valid(true));
     const std::clock_t begin = std::clock();
     move_vertices(sculptor, mesh.vertices(), get(CGAL::vertex_point, targets), Move_parameters().drags(drags));
-    rows.push_back(row(m, drags ? "move_vertices" : "one round of axis moves", begin, mesh, false));
+    rows.push_back(row(m, drags ? "move_vertices" : "one round of axis moves", seconds_since(begin), mesh));
   }
   const std::clock_t begin = std::clock();
   PMP::does_self_intersect(m.start);
-  rows.push_back(row(m, "one does_self_intersect", begin, m.start, false));
+  rows.push_back(row(m, "one does_self_intersect", seconds_since(begin), m.start));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 // takes.
 #include "Benchmark_program.h"
 #include "Long_sculpting.h"
+#include "quantile.h"
 
 #include "sculpting/Mover_hand.h"
 #include "sculpting/clearances.h"
@@ -111,11 +112,10 @@ public:
     for (const std::string& name : order_)
       for (const Response response : responses) {
         const Row& row = rows_.at(name).at(name_of(response));
-        std::vector<double> sorted = row.nanoseconds;
-        std::sort(sorted.begin(), sorted.end());
+        std::vector<double> times = row.nanoseconds;
         const double n = static_cast<double>(row.drags);
         double sum = 0;
-        for (const double t : sorted)
+        for (const double t : times)
           sum += t;
         all.push_back({{"unit", units_.at(name).number},
                        {"scene", name},
@@ -129,8 +129,8 @@ public:
                        {"mean_legs", static_cast<double>(row.legs) / n},
                        {"most_legs", row.most_legs},
                        {"mean_ns", sum / n},
-                       {"median_ns", sorted[sorted.size() / 2]},
-                       {"p99_ns", sorted[sorted.size() * 99 / 100]}});
+                       {"median_ns", benchmark::quantile(times, 0.5)},
+                       {"p99_ns", benchmark::quantile(times, 0.99)}});
       }
     return all;
   }

@@ -8,6 +8,7 @@
 #include "oracle/sweep_oracle.h"
 #include "paper_sweep.h"
 #include "populations/sweep_populations.h"
+#include "quantile.h"
 
 #include <haptic_sculpt/collision.h>
 
@@ -85,13 +86,8 @@ Result measure(const Query_timer& timer, const std::vector<Judged_query>& querie
   }
   volatile std::uint64_t used = hits; // or the untimed loop could be left out
   static_cast<void>(used);
-  const auto quantile = [&times](double q) {
-    const auto nth = times.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(times.size() - 1));
-    std::nth_element(times.begin(), nth, times.end());
-    return *nth;
-  };
-  result.median = quantile(0.5);
-  result.p99 = quantile(0.99);
+  result.median = quantile(times, 0.5);
+  result.p99 = quantile(times, 0.99);
   return result;
 }
 

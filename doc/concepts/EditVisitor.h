@@ -21,8 +21,7 @@
 /// that is
 ///   replaced has died, and a new one may have its descriptor. Forget what died before you note what is new.
 /// - *Nothing is said* of what was refused or lacked memory, of a drag that did not move, of
-/// haptic_sculpt::Sculptor::probe(), of
-///   and of settings.
+///   haptic_sculpt::Sculptor::probe(), and of settings.
 /// - *An exception* goes on to the caller of the edit, and the Sculptor works as before. Thrown in one of the `*_dies`,
 /// the change is
 ///   not made, though some of what it would have killed has been named. Thrown in another function, the change stands,

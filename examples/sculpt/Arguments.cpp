@@ -71,8 +71,8 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
       ->type_name("X Y Z");
   app.add_option(
          "--picture-at", shown.at,
-         "What is in its middle: a vertex by its number, a place @X,Y,Z, or 'edit': where the last edit that was "
-         "blocked ended, or else the last edit")
+         "What is in its middle: a vertex by its number, a place @X,Y,Z, or 'edit': where the last drag or probe that "
+         "was blocked ended, or else the last edit that has a place")
       ->check(place)
       ->needs("--picture");
   app.add_option("--picture-zoom", shown.zoom, "How large; 1 is all of the mesh; by default 8 with --picture-at")

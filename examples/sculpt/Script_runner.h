@@ -219,8 +219,6 @@ private:
   void tell_edit(const Command& command, Clock::time_point begin, const Applied<Mesh>& done) {
     result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
     ++result_.reached;
-    for (const auto& way : done.edit.ways)
-      moved_.insert(way.first);
     const Edit_kind kind = command.edit.kind;
     if (kind == Edit_kind::shift) {
       record(command, Status::reached, nullptr, {});

@@ -5,6 +5,7 @@
 #include "Run_result.h"
 
 #include "../common/numbers.h"
+#include "../drawing/altitude.h"
 #include "../drawing/surface_mesh_arrays.h"
 #include "../drawing/write_picture.h"
 
@@ -100,12 +101,10 @@ inline std::vector<double> altitudes_of(const drawing::Scene& scene) {
   std::vector<double> altitude(scene.points.size(), std::numeric_limits<double>::infinity());
   for (const auto& t : scene.triangles)
     for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d &a = scene.points[t[i]], &b = scene.points[t[(i + 1) % 3]],
-                            &c = scene.points[t[(i + 2) % 3]];
-      const double base = (b - a).stableNorm(),
-                   height = (c - a).stableNorm() * (b - a).stableNormalized().cross((c - a).stableNormalized()).norm();
+      const double height =
+          drawing::altitude(scene.points[t[i]], scene.points[t[(i + 1) % 3]], scene.points[t[(i + 2) % 3]]);
       for (const int v : t)
-        altitude[v] = base > 0 ? std::fmin(altitude[v], height) : 0;
+        altitude[v] = std::fmin(altitude[v], height);
     }
   return altitude;
 }
@@ -141,7 +140,9 @@ inline std::optional<Eigen::Vector3d> focus_of(const std::string& at, const Mesh
                           found->status != Edit_record::Status::blocked))
         found = &edit;
     if (found == nullptr)
-      throw drawing::Picture_error("--picture-at edit: no edit has moved anything, so there is no place to look at");
+      throw drawing::Picture_error(
+          "--picture-at edit: no edit that was carried out has a place of its own (flips, shifts, "
+          "moves, brushes and remeshings have none): give a vertex or @X,Y,Z");
     return vector_of(found->motion->stop);
   }
   if (at[0] == '@') {

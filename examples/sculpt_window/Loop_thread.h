@@ -100,8 +100,7 @@ private:
     while (!ends_) {
       const std::uint64_t begin = now();
       lateness_.add(begin > due ? begin - due : 0);
-      tick(session, loop);
-      if (const Loop_fault fault = loop.interaction().fault(); fault != Loop_fault::none) {
+      if (const Loop_fault fault = tick(session, loop); fault != Loop_fault::none) {
         ++status_.failures; // such as a target out of range: the mesh is as it was
         const char* const failure = *loop.failure() != '\0' ? loop.failure() : name_of(fault);
         *std::copy_n(failure, std::min(std::strlen(failure), status_.failure.size() - 1), status_.failure.data()) =
@@ -126,10 +125,13 @@ private:
     latest.put(status_);
   }
 
-  void tick(Session& session, const Loop& loop) {
+  /// \return the fault that it says
+  Loop_fault tick(Session& session, const Loop& loop) {
     status_.waits_for_disk = !has_room(session);
-    if (status_.waits_for_disk)
-      return session.pass_faces_on(); // all stands still until the log is written
+    if (status_.waits_for_disk) {
+      session.pass_faces_on(); // all stands still until the log is written
+      return Loop_fault::none;
+    }
     const Mouse_reading& newest = mouse.get();
     if (newest.press == reading_.press || (!loop.tool().holds_vertex() && !loop.tool().holds_probe()))
       reading_ = newest;                      // else what is held is yet to be let go of, and stays where it is
@@ -140,6 +142,7 @@ private:
     model_->end_tick(loop.tool().vertex());
     tell(made, loop.tool());
     status_.made = session.ticks(), status_.mouse = reading_.number;
+    return made.fault;
   }
 
   static bool has_room(Session& session) {

@@ -54,7 +54,6 @@ void Sculpture_view::show(const std::vector<Seen_face>& faces, const Place& midd
   covered_ = 0, middle_ = middle;
   faces_outwards_ = volume > 0;
   changes_.clear();
-  uploaded_ = uploaded_faces_ = 0;
 }
 
 void Sculpture_view::fit() {

@@ -35,7 +35,7 @@ public:
 
   /// To be drawn with the next frame.
   void change(const Seen_face& change) { changes_.push_back(change); }
-  /// What has been uploaded since show(), in bytes, and for how many changes.
+  /// What changes have had uploaded, of all meshes so far, in bytes; and how many faces.
   std::size_t uploaded_bytes() const { return uploaded_; }
   std::size_t uploaded_faces() const { return uploaded_faces_; }
 

@@ -122,7 +122,8 @@ private:
 
 /// Nothing is masked any more.
 class Unmask_all : public Window_task {
-  bool work(Scene& scene, Tool_type&) override {
+  bool work(Scene& scene, Tool_type& tool) override {
+    tool.let_go();
     for (const Vertex_index v : scene.mesh.vertices())
       if (std::exchange(scene.mask[v], 0) > 0)
         scene.show_again(v);

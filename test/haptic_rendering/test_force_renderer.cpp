@@ -118,6 +118,9 @@ BOOST_AUTO_TEST_CASE(what_is_no_force_is_none_and_said) {
   const Handle_motion handle = handle_at(parameters, Vector3d(1, 1.1, 0.9));
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Force_renderer renderer(Force_limits(), Virtual_coupling(), Gravity_compensation::spatial, 0.001);
+    renderer.refuse(handle, Vector3d(1, 0, 0));
+    renderer.cut_burst();
+    BOOST_TEST(renderer.render(handle, Vector3d::Zero()).force == Vector3d::Zero());
     renderer.render(handle, Vector3d(0, 0, 1));
     const Rendered_force made = renderer.render(handle, Vector3d(0, bad, 1));
     BOOST_TEST(!made.is_finite);
@@ -208,6 +211,10 @@ BOOST_AUTO_TEST_CASE(a_burst_on_top_of_the_largest_force_is_clamped_too) {
     }
     BOOST_TEST(largest <= limits.largest * (1 + 1e-15));
     BOOST_TEST(least < limits.largest - 0.2); // the burst was there
+    chain.refuse(wanted, 1);
+    chain.follow(wanted, 1);
+    chain.cut_burst();
+    BOOST_TEST(std::abs(chain.follow(wanted, 1).norm() - limits.largest) <= 1e-12);
   }
 }
 

@@ -277,4 +277,68 @@ BOOST_AUTO_TEST_CASE(one_press_of_a_button_that_bounces_removes_one_vertex_and_i
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_restart_under_an_open_clutch_keeps_where_the_tool_is) {
+  Clutch_bench b;
+  b.wait(50);
+  BOOST_REQUIRE(b.loop.tool().holds_probe());
+  const Vector3d held = b.go(Vector3d::Zero()).tool.proxy;
+  b.loop.open_clutch();
+  for (int k = 0; k < 100; ++k)
+    b.go(Vector3d(0.0005, 0, 0.0003));
+  b.loop.end_by(Loop_fault::stall);
+  BOOST_TEST((b.go(Vector3d::Zero()).tool.proxy == held));
+  b.loop.restart();
+  Pose_reading none;
+  none.position = Vector3d(std::nan(""), 0, 0), none.elapsed = 0.001;
+  const Haptic_tick failed = b.loop.tick(none); // at the first
+  BOOST_TEST((failed.fault == Loop_fault::not_finite && failed.tool.proxy == held));
+  b.loop.restart();
+  BOOST_TEST((b.go(Vector3d::Zero()).tool.proxy == held));
+  b.loop.open_clutch(false);
+  double farthest = 0;
+  for (int k = 0; k < 300; ++k)
+    farthest = std::fmax(farthest, (b.go(Vector3d::Zero()).tool.proxy - held).norm());
+  BOOST_TEST(farthest <= 1e-12);
+}
+
+// A driver opens the clutch as long as no force is permitted.
+BOOST_AUTO_TEST_CASE(under_an_open_clutch_neither_burst_nor_virtual_mass_is_felt) {
+  for (const bool opens : {false, true}) {
+    Clutch_bench b;
+    b.wait(400);
+    Pose_reading press;
+    press.position = b.handle, press.button = 1, press.elapsed = 0.001;
+    BOOST_REQUIRE((b.loop.tick(press).tool.event == Tool_event::refused)); // there is nothing
+    if (opens)
+      b.loop.open_clutch();
+    double felt = 0;
+    for (int k = 0; k < 50; ++k)
+      felt = std::fmax(felt, b.loop.tick(press).rendered.force.norm());
+    BOOST_TEST((felt > 0.01) == !opens, felt);
+  }
+  for (const bool opens : {false, true}) {
+    Clutch_bench b;
+    b.parameters.virtual_mass.mass = 0.01;
+    Pose_loop<Sculptor<meshes::Mesh>> loop(b.sculptor, map_of_tests, b.parameters);
+    double speed = 0, felt = 0; // m/s, N
+    const auto go = [&](double faster) {
+      speed += faster;
+      Pose_reading reading;
+      reading.position = b.handle += Vector3d(0, 0, 0.001 * speed), reading.elapsed = 0.001;
+      return loop.tick(reading).rendered.force.norm();
+    };
+    go(0);
+    loop.tool().take(*b.mesh.vertices_begin());
+    for (int k = 0; k < 400; ++k)
+      go(0);
+    if (opens)
+      loop.open_clutch();
+    for (int k = 0; k < 40; ++k) {
+      const double force = go(0.004);
+      felt = k < 20 ? felt : std::fmax(felt, force);
+    }
+    BOOST_TEST((felt > 0.005) == !opens, felt);
+  }
+}
+
 } // namespace

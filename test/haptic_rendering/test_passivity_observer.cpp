@@ -229,6 +229,42 @@ BOOST_AUTO_TEST_CASE(what_a_hand_has_put_in_counts_up_to_what_can_come_back_of_i
   BOOST_TEST(observer.is_active());
   observer.restart();
   BOOST_TEST((!observer.is_active() && observer.balance() == 0 && observer.energy() == 0));
+  exchange(0.99 * Passivity_observer::most_of_a_step / 2); // once as work, once in the balance
+  BOOST_TEST(!observer.is_blind());
+  exchange(1.01 * Passivity_observer::most_of_a_step / 2);
+  BOOST_TEST(observer.is_blind());
+  exchange(0.1);
+  BOOST_TEST(observer.is_blind()); // until
+  observer.restart();
+  BOOST_TEST(!observer.is_blind());
+  exchange(std::nan(""));
+  BOOST_TEST(observer.is_blind());
+}
+
+BOOST_AUTO_TEST_CASE(where_no_force_is_wanted_it_goes_by_the_slew_limit_and_a_burst_at_once) {
+  Haptic_parameters parameters;
+  Interaction<Pose_side> loop(Pose_side(Pose_device(2), parameters), parameters, 0);
+  Pose_reading reading;
+  reading.elapsed = parameters.tick;
+  const auto follow = [&] { BOOST_REQUIRE(loop.follow(reading)); };
+  Touch pressed;
+  pressed.way = Vector3d(0, 0, 0.001), pressed.is_free = false;
+  for (int k = 0; k < 400; ++k) // the ramp
+    follow(), loop.render(Touch()), loop.end_tick();
+  for (int k = 0; k < 100; ++k)
+    follow(), loop.render(pressed), loop.end_tick();
+  loop.refuse(Vector3d(1, 0, 0));
+  follow(), loop.render(pressed), loop.end_tick();
+  double before = loop.rendered().force[2];
+  BOOST_TEST(before > 0.1);
+  while (before > 0) {
+    follow(), loop.render_nothing(), loop.end_tick();
+    const Vector3d force = loop.rendered().force;
+    BOOST_REQUIRE((force[0] == 0 && force[1] == 0 && force[2] < before));
+    BOOST_REQUIRE(before - force[2] <= parameters.limits.slew * parameters.tick * (1 + 1e-12));
+    before = force[2];
+  }
+  BOOST_TEST((loop.spring() == Vector3d::Zero() && loop.wanted() == Vector3d::Zero()));
 }
 
 } // namespace

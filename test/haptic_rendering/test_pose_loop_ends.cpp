@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 
 using namespace haptic_sculpt;
 using namespace exchange_tests;
@@ -81,6 +82,28 @@ BOOST_AUTO_TEST_CASE(a_loop_in_another_scene_begins_without_force_and_the_old_sc
   const double depth = 0.05 / map_of_tests.scale();
   BOOST_TEST((p.force - Vector3d(0, 0, p.parameters.coupling.stiffness * depth)).norm() <= 1e-6);
   BOOST_TEST((p.loop.map() == map_of_tests));
+}
+
+BOOST_AUTO_TEST_CASE(a_fault_that_no_tick_has_said_outlives_a_restart_and_another_scene) {
+  for (const bool enters : {false, true}) {
+    Pressing p;
+    p.press();
+    Box_scene other(-0.05);
+    const auto begin_anew = [&] { enters ? p.loop.enter(other.sculptor, map_of_tests) : p.loop.restart(); };
+    p.loop.end_by(Loop_fault::stall);
+    begin_anew();
+    const Haptic_tick said = p.go(1.2);
+    BOOST_TEST((said.fault == Loop_fault::stall && said.is_new_fault));
+    begin_anew(); // now it is over
+    BOOST_TEST((p.go(1.2).fault == Loop_fault::none));
+    p.loop.attempt([] { throw Error("a viewer's"); });
+    begin_anew();
+    BOOST_TEST((p.go(1.2).fault == Loop_fault::error));
+    BOOST_TEST(std::string(p.loop.failure()) == "a viewer's");
+    p.loop.restart();
+    BOOST_TEST((p.go(1.2).fault == Loop_fault::none));
+    BOOST_TEST(std::string(p.loop.failure()).empty());
+  }
 }
 
 } // namespace

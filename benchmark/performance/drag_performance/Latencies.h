@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Query_timer.h"
+#include "quantile.h"
 
 #include <nlohmann/json.hpp>
 
@@ -36,13 +37,13 @@ public:
   std::size_t size() const { return times_.size(); }
   void reserve(std::size_t size) { times_.reserve(size); }
 
-  double median() { return times_.empty() ? 0 : quantile(0.5); }
+  double median() { return quantile(times_, 0.5); }
 
   /// Without the one per cent that took longest: other programs' time, mostly.
   double mean_of_most() {
     if (times_.empty())
       return 0;
-    const double limit = quantile(0.99);
+    const double limit = quantile(times_, 0.99);
     double sum = 0, number = 0;
     for (const double t : times_)
       if (t <= limit)
@@ -56,23 +57,18 @@ public:
     double sum = 0;
     for (const double t : times_)
       sum += t;
-    return {
-        {"count", times_.size()},   {"median_ns", quantile(0.5)}, {"mean_ns", sum / static_cast<double>(times_.size())},
-        {"p99_ns", quantile(0.99)}, {"p999_ns", quantile(0.999)}, {"max_ns", quantile(1)}};
+    return {{"count", times_.size()},
+            {"median_ns", quantile(times_, 0.5)},
+            {"mean_ns", sum / static_cast<double>(times_.size())},
+            {"p99_ns", quantile(times_, 0.99)},
+            {"p999_ns", quantile(times_, 0.999)},
+            {"max_ns", quantile(times_, 1)}};
   }
 
 private:
   std::vector<double> times_;
 
   void add(std::uint64_t start) { times_.push_back(timer().nanoseconds(start, Query_timer::now())); }
-
-  /// The smallest time that at least the share q of all do not exceed.
-  double quantile(double q) {
-    const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(times_.size())));
-    const auto place = times_.begin() + static_cast<std::ptrdiff_t>(rank > 0 ? rank - 1 : 0);
-    std::nth_element(times_.begin(), place, times_.end());
-    return *place;
-  }
 };
 
 } // namespace haptic_sculpt::benchmark

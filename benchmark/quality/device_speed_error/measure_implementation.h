@@ -4,6 +4,7 @@
 #include "device/populations.h"
 #include "device_speed_error/measure.h"
 #include "device_speed_error/reference.h"
+#include "../../common/quantile.h"
 
 #include <algorithm>
 #include <chrono>
@@ -55,10 +56,10 @@ double relative_error(const Device_vector<S>& got, const Device_vector<Exact>& w
 struct Errors {
   std::vector<double> values;
   nlohmann::json summary() {
-    std::sort(values.begin(), values.end());
     if (values.empty())
       return {{"median", nullptr}, {"max", nullptr}};
-    return {{"median", values[values.size() / 2]}, {"p99", values[values.size() * 99 / 100]}, {"max", values.back()}};
+    const auto at = [this](double share) { return quantile(values, share); };
+    return {{"median", at(0.5)}, {"p99", at(0.99)}, {"max", at(1)}};
   }
 };
 

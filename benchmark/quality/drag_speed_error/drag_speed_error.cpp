@@ -2,6 +2,7 @@
 // Time of whole drags against their errors, with sweeps decided in several arithmetics, on the same scripts.
 #include "Benchmark_program.h"
 #include "drag_speed_error/Drag_script.h"
+#include "quantile.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -20,12 +21,6 @@ constexpr int exact_is_wrong = 10;
 
 double mean(const std::vector<double>& values) {
   return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-double quantile(std::vector<double> values, double q) {
-  if (values.empty())
-    return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
 }
 
 } // namespace
@@ -66,7 +61,7 @@ int main(int argc, char** argv) {
       for (const Arithmetic arithmetic :
            {Arithmetic::doubles, Arithmetic::paper, Arithmetic::long_doubles, Arithmetic::exact}) {
         const bool slides = response == "slide", is_exact = arithmetic == Arithmetic::exact;
-        const Drag_counts c = is_exact ? measure_exact(script, slides) : measure_rounded(script, slides, arithmetic);
+        Drag_counts c = is_exact ? measure_exact(script, slides) : measure_rounded(script, slides, arithmetic);
         if (is_exact)
           exact_drags += c.drags, exact_wrong += c.crossed + c.wrongly_blocked;
         const double median = quantile(c.nanoseconds, 0.5) * 1e-3, p99 = quantile(c.nanoseconds, 0.99) * 1e-3;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "haptic_passivity/Random_contacts.h"
+#include "../../common/quantile.h"
 
 #include <haptic_sculpt/device/dynamics.h>
 
@@ -68,8 +69,7 @@ inline Gravity_residual gravity_residual(std::uint64_t seed, Device_form form, R
     if (found.back() > residual.largest)
       residual.largest = found.back(), residual.condition = condition;
   }
-  std::sort(found.begin(), found.end());
-  residual.median = found[found.size() / 2], residual.p99 = found[found.size() * 99 / 100];
+  residual.median = benchmark::quantile(found, 0.5), residual.p99 = benchmark::quantile(found, 0.99);
   return residual;
 }
 

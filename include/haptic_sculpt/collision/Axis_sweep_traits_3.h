@@ -45,7 +45,8 @@ private:
 /// Does the point `v` meet the closed triangle `a`, `b`, `c` at some time while all four move along one coordinate
 /// axis? The triangle may be flat, on edge, a segment or a point. Exact for all finite doubles.
 /// \tparam K a CGAL kernel with `FT` = double \tparam Counters where filter failures are counted
-/// Cost: constant; 4 two-dimensional orientations, and 2 in space where the point is over the triangle.
+/// Cost: constant; 4 two-dimensional orientations, and 2 in space where the point is over the triangle; 10
+/// two-dimensional ones at most where all are seen on one line.
 template <class K, class Counters = No_filter_counters>
 class Vertex_face_axis_sweep_3 : public internal::Axis_sweep_3<4, K, Counters> {
 public:
@@ -66,7 +67,8 @@ public:
 /// Do the closed segments `a`, `b` and `c`, `d` meet at some time while all four ends move along one coordinate axis?
 /// They may be parallel, collinear, vertical, or points. Exact for all finite doubles.
 /// \tparam K a CGAL kernel with `FT` = double \tparam Counters where filter failures are counted
-/// Cost: constant; 4 two-dimensional orientations, and 2 in space where they cross as seen along the axis.
+/// Cost: constant; 4 two-dimensional orientations, and 2 in space where they cross as seen along the axis; 12
+/// two-dimensional ones at most where all are seen on one line.
 template <class K, class Counters = No_filter_counters>
 class Edge_edge_axis_sweep_3 : public internal::Axis_sweep_3<4, K, Counters> {
 public:

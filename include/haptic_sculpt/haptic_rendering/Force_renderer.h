@@ -58,6 +58,7 @@ public:
   void refuse(const Handle_motion& handle, const Eigen::Vector3d& direction) {
     chain_.refuse(direction, mobility(handle, direction.normalized()));
   }
+  void cut_burst() { chain_.cut_burst(); } ///< what is left of one is not felt
   /// Forces begin at 0 and come back slowly; as slowly what carries the weight, from what the fade has left of it.
   void restart() {
     const double left = last_.is_finite ? chain_.left() : 0;

@@ -36,7 +36,8 @@ public:
   /// same way. \param elapsed s, > 0; half of a tick at least counts
   void add_step(const Eigen::Vector3d& joint_step, double stiffness, const Eigen::Vector3d& handle_step,
                 double elapsed) {
-    port_ -= delay_.mean().dot(joint_step);
+    const double before = energy() + dissipated_, taken = delay_.mean().dot(joint_step);
+    port_ -= taken;
     // A joint known by counts has moved ever since the last one: as if it had moved in this tick alone, at a high rate,
     // friction would seem to take many times what it takes.
     double hidden = 0; // counts^2
@@ -54,6 +55,7 @@ public:
     if (encoder_step_ > 0 && moved > 0 && delay_.mean().squaredNorm() > 0)
       credit_ += 0.5 * stiffness * handle_step.squaredNorm() / moved * encoder_step_ * encoder_step_ * hidden;
     least_ = std::fmin(least_, energy() + dissipated_);
+    is_blind_ = is_blind_ || !(std::abs(energy() + dissipated_ - before) + std::abs(taken) <= most_of_a_step);
   }
   /// What the hand has put in counts up to what can come back of it, J: the rest is friction's, and must not hide what
   /// the device gives an hour later. \param returnable the most that may come back from now on
@@ -70,6 +72,11 @@ public:
   double dissipated() const { return dissipated_; } ///< J, by viscous friction, as the joint steps say
   /// Whether the device has given more than anything that is allowed for can explain.
   bool is_active() const { return balance() < permitted - lent_; }
+  /// Whether a step has had more work than most_of_a_step, or work that is no number: what the device gives after it is
+  /// lost beside that. Until restart().
+  bool is_blind() const { return is_blind_; }
+  /// J; no hand has a GW in a tick of a ms, and sums of some such steps still show a hundredth of `permitted`.
+  static constexpr double most_of_a_step = 1e6;
   /// energy() + dissipated(), J, less what has been forgotten.
   double balance() const { return energy() + dissipated_ - forgotten_; }
   /// J: what the loop may seem to have given, beyond the credit for encoders. A stiffness that grows while a hand
@@ -83,6 +90,7 @@ private:
   double tick_, friction_, encoder_step_, lent_;
   double port_ = 0, credit_ = 0, dissipated_ = 0, least_ = 0, forgotten_ = 0;
   std::array<double, 3> since_{}; ///< s, since each joint's last step
+  bool is_blind_ = false;
 };
 
 } // namespace haptic_sculpt

@@ -155,11 +155,18 @@ public:
   /// From here on in another map of the same scene. What is held stays where it is, anchored at the next move().
   void change_map(const Workspace_map& map) { map_ = map, is_anchored_ = false, offset_.setZero(); }
 
-  /// What is done from here on goes to it, nullptr: to none. Lets go where that is another one than before.
-  void keep_journal(Edit_journal* journal) {
+  /// What is done from here on goes to it, nullptr: to none. Lets go where that is another one than before. \return a
+  /// number that no other call has, for end_journal()
+  std::uint64_t keep_journal(Edit_journal* journal) {
     if (journal != mesh_edits_.journal())
       let_go();
     mesh_edits_.keep_journal(journal);
+    return ++journals_;
+  }
+  /// Ends what a call of keep_journal() began, unless another one has been made since.
+  void end_journal(std::uint64_t number) {
+    if (number == journals_)
+      keep_journal(nullptr);
   }
 
   bool holds_vertex() const { return vertex().is_valid(); }         ///< the probe does not count
@@ -184,6 +191,7 @@ private:
   bool is_stroke_of_button_ = false; ///< it ends with its release
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero(), last_push_ = Eigen::Vector3d::UnitZ();
   std::optional<std::array<Vertex_index, 3>> touched_; ///< the face that the probe touches
+  std::uint64_t journals_ = 0;                         ///< calls of keep_journal()
   /// From where a vertex was let go, while the probe has no place yet.
   struct Probe_placement {
     Eigen::Vector3d place, away, from; ///< the vertex and its normal then; behind the last surface that was met

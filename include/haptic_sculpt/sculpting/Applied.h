@@ -8,6 +8,7 @@
 #include <haptic_sculpt/sculpting/Stroke.h>
 #include <haptic_sculpt/sculpting/edits/Sculptor_access.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
+#include <haptic_sculpt/sculpting/guarded_mesh/Responses.h>
 #include <haptic_sculpt/sculpting/response/Slide_path.h>
 #include <haptic_sculpt/surface/make_room.h>
 
@@ -17,7 +18,8 @@ namespace haptic_sculpt {
 template <class Mesh>
 struct Applied : Edit_result<Mesh> {
   /// As it can be done again: a slide as its legs, a removal as the collapse that it was. Of kind `none` where it was
-  /// refused, or nothing has moved; but an undo or redo that was refused and has ended a stroke is itself.
+  /// refused, or nothing has moved; but an undo or redo that was refused and has ended a stroke is itself:
+  /// it is refused again where the history is as long, by the same limits and what was forgotten.
   Edit edit;
   std::optional<Drag_result<Mesh>> drag; ///< of a move: the last leg's
 
@@ -114,9 +116,20 @@ private:
     check_point("the target", point(edit.point));
     Done result;
     result.vertex = v;
+    auto& guarded = Sculptor_access::guarded(sculptor);
+    const bool serves = !guarded.has_outgrown_clearance();
     const auto drag_to = [&](const std::array<double, 3>& p) {
       make_room(result.edit.legs, result.edit.legs.size() + Slide_path::most_legs); // before it: memory may run out
-      result.drag = Sculptor_access::guarded(sculptor).drag(v, point(p), &path_, std::nullopt);
+      const Coordinates source = vertex_coordinates(sculptor.mesh(), v);
+      path_.assign({point(source), point(p)});
+      // By a leg before the scene may have outgrown the clearance: what was free once needs none.
+      if (serves && guarded.has_outgrown_clearance() &&
+          guarded.move_if_free(v, point(p), std::nullopt, sculptor.parameters().delta_length)) {
+        result.drag.emplace().legs = 1;
+        settle_result(source, p, p, *result.drag);
+      } else {
+        result.drag = guarded.drag(v, point(p), &path_, std::nullopt);
+      }
       for (std::size_t k = 1; k < path_.size(); ++k)
         if (path_[k] != path_[k - 1]) // +0 and -0 are one place
           result.edit.legs.push_back({path_[k].x(), path_[k].y(), path_[k].z()});

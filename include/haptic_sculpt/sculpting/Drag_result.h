@@ -50,10 +50,11 @@ struct Drag_result {
   Drag_end end = Drag_end::no_progress;      ///< why the drag ended
   Contacts contacts; ///< what holds it: of a stop in an order of the elements, of a slide as they were met
   int legs = 0; ///< straight motions, each proven, from where it was to `position`; 0 where that is the same
-  /// The distance of a stopped vertex from the nearest contact plane, in the unit of the coordinates; where the contact
-  /// is flat, as stop_error_along_path; 0 when nothing stopped it. Of the last leg.
+  /// The distance of a stopped vertex from the nearest contact plane, in the unit of the coordinates; of a contact of
+  /// the delta rule, from where the altitude would be too low, to first order; where all contacts are flat impacts, of
+  /// a stop as stop_error_along_path, of a slide from the wall. 0 when nothing stopped it. Of the last leg.
   double stop_error = 0;
-  double stop_error_along_path = 0;          ///< the distance from the exact point of impact, along the path
+  double stop_error_along_path = 0; ///< a stop's distance from the exact point of impact, along the path
   std::size_t work = 0;    ///< pairs decided and candidates looked up: what a bound on the work counts; no more than it
   double kkt_residual = 0; ///< |d - nearest point of the cone of pushes| / |d|, d = target - position; 0 if reached
 };

@@ -12,7 +12,7 @@ namespace haptic_sculpt {
 /// What became of many vertices that were to go to targets. Lengths are in the unit of the coordinates.
 struct Move_report {
   std::size_t asked = 0;   ///< vertices, each once
-  std::size_t reached = 0; ///< of these, how many are at their targets, to the last bit
+  std::size_t reached = 0; ///< of these, how many are at their targets, as numbers: +0 is -0
   /// How many motions were asked for, of an axis move one for each vertex; to take a step back counts none.
   std::size_t drags = 0;
   std::size_t counted = 0; ///< the same, but a slide counts by its work: what Move_parameters::most_drags() bounds
@@ -27,7 +27,9 @@ struct Move_report {
   double left_max = 0;  ///< the largest distance after; never more than asked_max
 
   bool cancelled = false;   ///< the progress function asked to stop
-  bool out_of_work = false; ///< `most_drags` or `most_pairs` has ended it, and some vertex was still to go on
+  /// `most_drags` or `most_pairs` has ended it, or kept axis moves from being made, and some vertex was still to go on.
+  /// A call that has moved nothing moves nothing when it is repeated: give more.
+  bool out_of_work = false;
 };
 
 /// How far a call that moves many vertices has come.

@@ -9,7 +9,7 @@
 namespace haptic_sculpt {
 
 /// What a guarded remeshing did. `refused` counts what was worth doing but would have broken the promise, the delta
-/// rule or the bound on faces.
+/// rule or the bound on faces; of moves see below.
 struct Remeshing_report {
   /// Of one kind of operation.
   struct Count {
@@ -19,7 +19,8 @@ struct Remeshing_report {
   Count splits,              ///< of edges longer than 4/3 of the target length
       collapses,             ///< of edges shorter than 4/5 of it; both ways of an edge may be tried and count
       flips;                 ///< that bring vertices nearer to six neighbours, or slivers into shape
-  Count moves;               ///< of relaxation and projection; refused: no eighth of the way was free
+  Count moves;               ///< of relaxation and projection; refused: no eighth of the way was free, kept
+                             ///< the shape and was near enough to the input
   std::size_t shortened = 0; ///< of the moves done, those that went only a half, a fourth or an eighth of the way
   std::size_t too_far = 0;   ///< collapses, flips and tries of moves left out for the distance to the input
   unsigned iterations = 0;   ///< completed

@@ -60,7 +60,8 @@ public:
 
   /// Drags v towards p. A point that is not finite or out of range is refused, and counted, whatever the policy.
   /// \throw Unknown_vertex, Mesh_changed: e.g. where the function changes connectivity, too; flips are found where v is
-  /// a vertex of what was flipped
+  /// a vertex of what was flipped; Invalid_parameter where the scene has outgrown the clearance, and v may stop or
+  /// slide
   friend void put(const Guarded_point_map& map, key_type v, const value_type& p) { map.write(v, p); }
 
 private:

@@ -14,7 +14,7 @@ namespace haptic_sculpt {
 /// \tparam Concurrency_tag as of move_vertices()
 /// \param vertices a range of vertices, const; one that is given again counts once
 /// \param transformation of the kernel of the mesh's points. Where all of the way is gone, each vertex is at what
-/// `transformation.transform()` makes of its point, to the bit
+/// `transformation.transform()` makes of its point, as numbers
 /// \param parameters as of move_vertices(): `most_drags`, `most_pairs`, `progress` end it where it stands; the others
 /// do not count
 ///

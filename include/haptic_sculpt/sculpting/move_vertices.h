@@ -84,9 +84,10 @@ Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Ta
 /// none, where nothing has moved. Its own response is used, that of the Sculptor is as before afterwards.
 /// doc/proofs/many_vertices.md tells how the vertices are brought on, and which do not arrive: few that stay behind, up
 /// to one and a 32nd of all, slide after the others, and may end far from their targets although these are free.
-/// \throw Unknown_vertex, Out_of_range, Invalid_parameter: nothing has moved; Mesh_changed, std::bad_alloc, and what
-/// the progress function throws: what has moved by then stays so. Cost: some microseconds a vertex where the targets
-/// are free; about a millisecond for one that has to slide.
+/// \throw Unknown_vertex, Out_of_range, Invalid_parameter: nothing has moved, unless a slide then ends beyond a power
+/// of two that no vertex and no target is beyond, and the clearance is below an ulp there; Mesh_changed,
+/// std::bad_alloc, and what the progress function throws: what has moved by then stays so. Cost: some microseconds a
+/// vertex where the targets are free; about a millisecond for one that has to slide.
 template <class Concurrency_tag = CGAL::Sequential_tag, class Sculptor, class Vertex_range, class Target_map,
           class Output_iterator = CGAL::Emptyset_iterator>
 Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, const Target_map& target_map,

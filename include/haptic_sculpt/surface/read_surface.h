@@ -5,6 +5,7 @@
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Is_mesh_of_doubles.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
+#include <haptic_sculpt/surface/add_faces.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/io/check_regular_file.h>
 #include <haptic_sculpt/surface/io/parse_obj.h>
@@ -14,8 +15,6 @@
 #include <haptic_sculpt/surface/io/quoted.h>
 #include <haptic_sculpt/surface/validate.h>
 #include <haptic_sculpt/surface/vertex_attributes.h>
-
-#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <array>
 #include <filesystem>
@@ -93,13 +92,7 @@ Mesh mesh_of(const Face_soup& soup) {
     for (std::size_t v = 0; v < soup.points.size(); ++v)
       put(map, Vertex(static_cast<typename Mesh::size_type>(v)), attribute.values[v]);
   }
-  CGAL::Euler::add_faces(faces, mesh);
-  for (const auto f : mesh.faces()) {
-    auto h = mesh.halfedge(f);
-    while (mesh.source(h) != faces[f][0])
-      h = mesh.next(h);
-    mesh.set_halfedge(f, h);
-  }
+  internal::add_faces(faces, mesh);
   return mesh;
 }
 

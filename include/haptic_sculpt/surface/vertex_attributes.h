@@ -50,7 +50,8 @@ Attribute_map<Mesh> add_vertex_attribute(Mesh& mesh, const std::string& name,
   return {name, type, mesh.template add_property_map<typename Mesh::Vertex_index, double>(property, 0.0).first};
 }
 
-/// What a file of this format cannot hold of them, in words, e.g. "colours": PLY holds all, OBJ red, green and blue.
+/// What a file of this format cannot hold of them, in words, e.g. "colours": PLY holds all, and refuses
+/// names that it cannot say (`write_surface()`), OBJ red, green and blue.
 template <class Mesh>
 std::vector<std::string> attributes_not_held(const Mesh& mesh, Mesh_file_format format) {
   std::vector<std::string> lost;

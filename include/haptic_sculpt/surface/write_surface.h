@@ -264,8 +264,9 @@ std::string surface_bytes(const Mesh& mesh, const std::filesystem::path& path,
 /// `read_surface()` from every format but binary STL, which holds floats: there it is refused unless the coordinates
 /// are floats anyway, or `allow_rounding()` is set and the rounded surface validates. ASCII STL holds 17 digits and is
 /// lossless, but numbers vertices anew, in order of first appearance. Removed elements are left out; vertices close up
-/// in index order or in `vertex_order()`, faces in index order. PLY holds all vertex_attributes(), OBJ colours,
-/// the other formats none (`attributes_not_held()`). An invalid surface is written as it is (and will
+/// in index order or in `vertex_order()`, faces in index order. PLY holds all vertex_attributes(), and refuses names
+/// that are no single word, stand there twice or would be a normal, and more than 997; OBJ holds colours, the other
+/// formats none (`attributes_not_held()`). An invalid surface is written as it is (and will
 /// not be read back, nor is an empty one), unless the format cannot hold it. STL joins vertices at one place.
 ///
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`

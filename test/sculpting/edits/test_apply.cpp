@@ -161,6 +161,25 @@ BOOST_AUTO_TEST_CASE(what_was_applied_can_be_done_again) {
   BOOST_TEST(other_steps == 0u);
 }
 
+// Its first leg leaves what the clearance serves, and its last comes back.
+BOOST_AUTO_TEST_CASE(an_edit_with_legs_is_made_again_where_the_scene_outgrows_the_clearance_on_the_way) {
+  Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+  Sculptor<Mesh> sculptor(mesh, parameters::clearance(0x1p-52));
+  Edit move = Edit::of(Edit_kind::move, {3, 0, 0}, {0, 0, 1.5});
+  move.legs = {{0.125, 0, 3}};
+  const Point_3 start = mesh.point(Vertex_index(3));
+  for (int again = 0; again < 2; ++again) {
+    const auto done = sculptor.apply(move);
+    BOOST_TEST((done.edit.legs == move.legs && done.edit.point == move.point));
+    BOOST_REQUIRE(done.drag.has_value());
+    BOOST_TEST((done.drag->reached && done.drag->legs == 1 && done.drag->position == Point_3(0, 0, 1.5)));
+    BOOST_TEST(static_cast<bool>(sculptor.undo()));
+    BOOST_TEST((mesh.point(Vertex_index(3)) == start));
+  }
+  move.legs[0] = {0, 0, 3}, move.point = {0, 0, -1}; // through the face of the others
+  BOOST_CHECK_THROW(sculptor.apply(move), Invalid_parameter);
+}
+
 // A removal is the collapse that it was, a vertex that nothing moves gives nothing, and moves that follow each other
 // are one grab.
 BOOST_AUTO_TEST_CASE(what_apply_says) {

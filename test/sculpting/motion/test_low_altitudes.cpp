@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(undo_restores_what_was_whatever_delta_is_and_drags_mend_it)
     BOOST_TEST(!down.reached);
     BOOST_REQUIRE(!down.contacts.empty());
     BOOST_TEST((down.contacts[0].kind == Contact_kind::delta));
-    BOOST_TEST(down.stop_error >= 0);
+    BOOST_TEST(down.stop_error == 0); // it is where it may not get lower
     if (response == Response::stop)
       BOOST_TEST((mesh.point(j) == low));
     while (mesh.point(j) != low) // a slide goes beside it
@@ -102,6 +102,33 @@ BOOST_AUTO_TEST_CASE(undo_restores_what_was_whatever_delta_is_and_drags_mend_it)
       ;
     BOOST_TEST((snapshot(sculptor) == begin));
   }
+}
+
+// The altitude of I over JG is |GI| sin(JGI): delta is a cone about the line GI, from which J has a distance.
+BOOST_AUTO_TEST_CASE(the_stop_error_of_a_low_altitude_is_a_distance) {
+  const double delta = 0.05, clearance = 0.002, right_angle = std::acos(0.0);
+  for (const Response response : {Response::stop, Response::slide})
+    for (const double base : {0.08, 0.125, 0.25, 0.5}) {
+      meshes::Triangle_list list = meshes::tetrahedron();
+      const Point_3 g(0, 0, 0), i(base, 0, 0);
+      list.points = {g, i, Point_3(base / 4, base / 8, -3), Point_3(1.2, 1.8, 0.5)};
+      if (CGAL::orientation(list.points[0], list.points[1], list.points[2], list.points[3]) == CGAL::NEGATIVE)
+        for (auto& face : list.faces)
+          std::swap(face[0], face[1]);
+      Mesh mesh = meshes::to_mesh(list);
+      Sculptor<Mesh> sculptor(mesh, parameters::response(response).delta(delta).clearance(clearance));
+      const auto result = sculptor.drag(Vertex_index(3), Point_3(2, 0.001, 0.001));
+      BOOST_TEST(!result.reached);
+      BOOST_REQUIRE(!result.contacts.empty());
+      BOOST_TEST((result.contacts[0].kind == Contact_kind::delta));
+      const auto way = result.position - g;
+      const double length = std::sqrt(way.squared_length());
+      const double angle = right_angle - std::asin(way * (i - g) / (length * base));
+      const double distance = length * std::sin(angle - std::asin(delta / base));
+      BOOST_TEST_MESSAGE(name_of(response) << ", base " << base << ": " << result.stop_error << " of " << distance);
+      BOOST_TEST(distance > clearance / 2);
+      BOOST_TEST(std::abs(result.stop_error - distance) < 0.02 * distance);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(the_limit_of_an_altitude_against_rational_samples) {

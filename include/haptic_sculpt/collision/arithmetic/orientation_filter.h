@@ -29,7 +29,7 @@ namespace haptic_sculpt::internal {
 /// |computed 3x3 determinant - exact| <= this times the product of the largest differences in x, y and z.
 /// The derivation gives 54 units of 2^-52; the rest covers the rounding of the product itself.
 constexpr double orientation_3_error = 0x1p-46;
-/// The same for the 2x2 determinant: 8 units of 2^-52 from the derivation, doubled.
+/// The same for the 2x2 determinant: 10.1 units of 2^-52 from the derivation; this is 16.
 constexpr double orientation_2_error = 0x1p-48;
 /// While the largest differences in x, y and z all stay between these, neither overflow nor underflow reaches the
 /// bound.
@@ -97,8 +97,8 @@ inline Enclosed_determinant enclosed_orientation_2(const Coordinates& a, const C
 }
 
 /// The second stage of the filter: |computed - exact| <= this times the sum of the magnitudes of all six products,
-/// which is far less than six times the largest possible one where coordinates differ in size. 9 units of 2^-52 each,
-/// doubled.
+/// which is far less than six times the largest possible one where coordinates differ in size. 9 units of 2^-52 each;
+/// this is 32.
 constexpr double permanent_error = 0x1p-47;
 /// What underflow can add in the second stage: six products that err by 2^-1074, times a third factor of at most 2^300,
 /// with room.

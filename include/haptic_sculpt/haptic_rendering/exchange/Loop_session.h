@@ -31,12 +31,12 @@ public:
   Loop_session(Loop& loop, Scene& scene, Command_queue<Scene>* queue, Feed* feed, Edit_journal* journal)
       : loop_(&loop), scene_(&scene), queue_(queue), feed_(feed), journal_(journal) {
     tasks_.reserve(most_tasks); // may throw: then no tool keeps the journal of a session that never was
-    loop.tool().keep_journal(journal);
+    journal_number_ = loop.tool().keep_journal(journal);
   }
   /// What is under way is answered as by end().
   ~Loop_session() {
     answer_what_waits();
-    loop_->tool().keep_journal(nullptr);
+    loop_->tool().end_journal(journal_number_); // another session may have begun
     scene_->sculptor.visitor().mark_all(); // another session's viewer has none of them
   }
   Loop_session(const Loop_session&) = delete;
@@ -97,6 +97,7 @@ private:
   Command_queue<Scene>* queue_;
   Feed* feed_;
   Edit_journal* journal_;
+  std::uint64_t journal_number_ = 0;
   bool has_told_overrun_ = false; ///< the loop has ended by this journal's
   bool has_passed_on_ = false;    ///< and the last tick says so
   std::uint64_t ticks_ = 0;
@@ -225,7 +226,7 @@ private:
     loop_->enter(scene.sculptor, scene.map);
     if (has_lost)
       loop_->end_by(Loop_fault::log); // which entering has begun anew
-    loop_->tool().keep_journal(journal_ = journal);
+    journal_number_ = loop_->tool().keep_journal(journal_ = journal);
     has_told_overrun_ = false;
     scene_->sculptor.visitor().mark_all(); // where it is entered again no viewer has it
     ++scenes_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/surface/add_faces.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>
@@ -94,9 +95,11 @@ public:
     Mesh mesh;
     for (const std::uint32_t v : order)
       vertex[v] = mesh.add_vertex({points[v][0], points[v][1], points[v][2]});
+    std::vector<std::array<typename Mesh::Vertex_index, 3>> corners;
     for (const auto& face : faces)
-      if (face[0] != no_corner) // the halfedge of a face is the last one: so it is the one that it was
-        mesh.add_face(vertex[face[1]], vertex[face[2]], vertex[face[0]]);
+      if (face[0] != no_corner)
+        corners.push_back({vertex[face[0]], vertex[face[1]], vertex[face[2]]});
+    internal::add_faces(corners, mesh);
     return mesh;
   }
 

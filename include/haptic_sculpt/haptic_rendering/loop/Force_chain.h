@@ -35,6 +35,7 @@ public:
 
   /// A refused edit is felt. \param direction in axes of the device \param mobility of the free handle there, 1/kg
   void refuse(const Eigen::Vector3d& direction, double mobility) { burst_.begin(direction, mobility); }
+  void cut_burst() { burst_.cut(); } ///< what is left of one is not felt
   /// Forces begin at 0 and come back slowly.
   void restart() { ramp_ = 0, fade_.reset(), slew_.reset(), burst_.cut(); }
 

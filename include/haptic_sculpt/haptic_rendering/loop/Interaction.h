@@ -53,7 +53,7 @@ public:
       return false;
     if (!is_first) // no step leads to where a loop begins
       observer_.add_step(side_.effort_step(), stiffness_, side_.step(), elapsed_);
-    if (side_.has_force() && !std::isfinite(observer_.balance())) // after a step that no hand makes
+    if (side_.has_force() && observer_.is_blind()) // after a step that no hand makes
       watchdog_.report(Loop_fault::not_finite);
     if (side_.has_force() && observer_.is_active())
       watchdog_.report(Loop_fault::energy);
@@ -73,11 +73,16 @@ public:
     if (side_.has_force())
       wanted_ += virtual_mass_.force(side_.step(), elapsed_, touch.holds) +
                  controller_.force(observer_, side_.step(), elapsed_);
-    rendered_ = side_.render(wanted_, touch.is_starved ? 0 : side_.step().norm());
-    if (rendered_.is_overloaded)
-      watchdog_.report(Loop_fault::torque);
-    if (!rendered_.is_finite)
-      watchdog_.report(Loop_fault::not_finite);
+    render_wanted(touch.is_starved ? 0 : side_.step().norm());
+  }
+  /// No force is wanted, after follow(): what is left goes as fast as the slew limit lets it. Neither burst nor virtual
+  /// mass nor controller has a say.
+  void render_nothing() {
+    is_paid_ = side_.next_ramp() == 1;
+    spring_.setZero(), wanted_.setZero();
+    side_.cut_burst(), virtual_mass_.restart();
+    observer_.forget_beyond(reserve_);
+    render_wanted(side_.step().norm());
   }
 
   /// Ends a tick: after a fault the force is what is left of the last one.
@@ -106,7 +111,7 @@ public:
 
   /// After a fault: forces come back slowly, from 0. What the observer missed is forgotten.
   void restart() {
-    if (watchdog_.fault() == Loop_fault::energy || !std::isfinite(observer_.balance()))
+    if (watchdog_.fault() == Loop_fault::energy || observer_.is_blind())
       observer_.restart();
     watchdog_.reset(), side_.restart(), virtual_mass_.restart();
     spring_.setZero(), rendered_ = Rendered_force(), is_paid_ = false, has_last_ = false;
@@ -126,6 +131,15 @@ private:
   double tick_, elapsed_ = 0; ///< s
   bool has_last_ = false; ///< a reading, since the last restart()
   bool is_paid_ = false;  ///< the spring has been whole ever since nothing was touched
+
+  /// \param way of the handle that made it what it is, m
+  void render_wanted(double way) {
+    rendered_ = side_.render(wanted_, way);
+    if (rendered_.is_overloaded)
+      watchdog_.report(Loop_fault::torque);
+    if (!rendered_.is_finite)
+      watchdog_.report(Loop_fault::not_finite);
+  }
 
   /// The share of the spring that is rendered. Where it gets stiffer while a hand presses it, under a ramp, or is back
   /// after work was cut short, nobody has put in what it holds: it holds no more than hand and friction have paid then,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
 
 namespace haptic_sculpt {
 
@@ -68,10 +69,20 @@ public:
     }
   }
 
-  /// After a fault: forces come back slowly, from 0, from where everything is; a zoom that waits is forgotten.
+  /// After a fault: forces come back slowly, from 0, from where everything is; a zoom that waits is forgotten. A fault
+  /// that no tick has said yet is not over by that: the next tick says it. Under an open clutch a probe stays where it
+  /// is; where a vertex was in hand the tool goes on from where the handle is.
   void restart() {
+    const Loop_fault unsaid = tick_.fault == Loop_fault::none ? interaction_.fault() : Loop_fault::none;
     interaction_.restart(), tool_.let_go();
-    tick_ = Haptic_tick(), failure_[0] = '\0', has_place_ = false, zoom_ = 1;
+    has_place_ = has_place_ && is_clutch_open_ && tool_.holds_probe(); // it goes on from there
+    const Tool_step last = std::exchange(tick_, Haptic_tick()).tool;
+    tick_.tool.target = tick_.tool.proxy = last.proxy;
+    zoom_ = 1;
+    if (unsaid != Loop_fault::none)
+      interaction_.report(unsaid);
+    else
+      failure_[0] = '\0';
   }
 
   /// \name Clutch and zoom
@@ -97,11 +108,12 @@ public:
   bool is_clutch_open() const { return is_clutch_open_; } ///< the tool does not follow the handle
   ///@}
 
-  /// From here on in another sculpture; forces begin at 0. The old one is let go of, and may be destroyed.
+  /// From here on in another sculpture, as after a restart(). The old one is let go of, and may be destroyed.
   void enter(Sculptor& sculptor, const Workspace_map& map) {
     tool_.enter(sculptor, map);
     sculptor_ = &sculptor, map_ = map, zoom_ = 1;
     restart();
+    tick_.tool = Tool_step(), has_place_ = false;
   }
 
   /// Whether a fault has let go of the hand altogether: the force is 0.
@@ -151,7 +163,7 @@ private:
     if (is_clutch_open_) {
       tick_.tool = Tool_step();
       tick_.tool.target = tick_.tool.proxy = has_place_ ? place_ : map_.to_scene(handle);
-      interaction_.render(Touch());
+      interaction_.render_nothing();
       return;
     }
     if (is_map_due_) {

@@ -41,6 +41,7 @@ public:
   bool has_faded() const { return renderer_.has_faded(); }                        ///< to nothing
   /// A refused edit is felt along a direction.
   void refuse(const Eigen::Vector3d& direction) { renderer_.refuse(handle_, direction); }
+  void cut_burst() { renderer_.cut_burst(); } ///< what is left of that is not felt
   /// Forces begin at 0; no step leads to the next reading.
   void restart() { handle_.restart(), renderer_.restart(); }
 

@@ -83,6 +83,7 @@ public:
   bool has_faded() const { return chain_.has_faded(); } ///< to nothing
   /// A refused edit is felt along a direction.
   void refuse(const Eigen::Vector3d& direction) { chain_.refuse(direction, 1 / device_.mass); }
+  void cut_burst() { chain_.cut_burst(); } ///< what is left of that is not felt
   /// Forces begin at 0; no step leads to the next reading.
   void restart() { is_first_ = true, velocity_.reset(), chain_.restart(), last_ = Rendered_force(); }
 

@@ -15,7 +15,8 @@ namespace haptic_sculpt::internal {
 /// constant altitude, of which a facet is the tangent plane where J is. A flat impact determines no plane; its facet is
 /// a wall across the path.
 ///
-/// Heights of the three kinds are exact up to one rounding; the rest is floating point and only proposes.
+/// Heights of the three kinds are exact up to some roundings at the end, their signs always; the rest is floating point
+/// and only proposes.
 template <class Mesh>
 class Facet {
 public:
@@ -52,6 +53,9 @@ public:
   /// below delta: the facet then goes with J.
   double height() const { return height_; }
 
+  /// How far J is from what the contact forbids, as of the last measure(); no less than 0.
+  double distance() const { return is_low_ ? 0 : std::fmax(0.0, height_); }
+
   /// What J keeps from the plane where it is, as of the last measure().
   double clearance() const { return clearance_; }
   /// Of the features that stand still.
@@ -69,13 +73,13 @@ public:
     if (contact_.kind == Contact_kind::delta) {
       const Altitude_over over = side_of_altitude();
       const auto points = corners();
-      const Vector slope = altitude_slope(x, points[0], points[1], over);
-      const double steepness = length(slope);
-      const Vector up = normalized(slope);
+      const Vector up = altitude_gradient(x, points[0], points[1], over);
       contact_.normal = {up[0], up[1], up[2]};
-      const double above = altitude(x, points[0], points[1], over) - rules.delta;
+      height_ = distance_to_altitude(x, points[0], points[1], over, rules.delta);
       // Lower than delta already it may not get lower: J is where it has to be, and all that rises is permitted.
-      height_ = above < 0 ? clearance_ : above / (steepness > 0 ? steepness : 1);
+      is_low_ = height_ < 0;
+      if (is_low_)
+        height_ = clearance_;
     } else if (contact_.is_flat)
       height_ = dot(normal(), minus(x, foot_));
     else
@@ -140,6 +144,7 @@ private:
   int borders_ = 0;
   double reach_, clearance_ = 0, height_ = 0;
   bool holds_on_ = false;
+  bool is_low_ = false; ///< an altitude that is below delta already
 
   /// The three points of the contact plane.
   std::array<Vector, 3> corners() const {

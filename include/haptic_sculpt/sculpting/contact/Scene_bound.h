@@ -36,11 +36,15 @@ public:
       check_clearance(*mesh_, clearance);
       checked_ = clearance;
     }
-    if (*clearance >= unit_in_the_last_place(largest_))
-      return;
-    largest_ = Scene_extent(*mesh_).largest; // what was far may be back
-    if (!(*clearance >= unit_in_the_last_place(largest_)))
+    if (has_outgrown(clearance))
       check_clearance(*mesh_, clearance);
+  }
+  /// Whether a clearance is less than can be kept in the scene as it is.
+  bool has_outgrown(const std::optional<double>& clearance) {
+    if (!clearance || *clearance >= unit_in_the_last_place(largest_))
+      return false;
+    largest_ = Scene_extent(*mesh_).largest; // what was far may be back
+    return !(*clearance >= unit_in_the_last_place(largest_));
   }
 
 private:

@@ -10,7 +10,8 @@ namespace haptic_sculpt::internal {
 
 /// How a path meets the plane in which the moving vertex is held: A, B, C; V, A, B; or G, I, A.
 ///
-/// Formed from exact determinants and rounded once at the end, so it keeps its accuracy on slivers.
+/// Formed from exact determinants and rounded a few times at the end, without cancellation, so it keeps its accuracy on
+/// slivers.
 struct Path_at_plane {
   double time;   ///< u in [0, 1], within an ulp or two
   double sine;   ///< of the angle between the path and the plane, in [0, 1]; 0 where the plane is not determined
@@ -109,7 +110,7 @@ Path_at_plane path_at_plane(const Impact& impact) {
 }
 
 /// The distance of q from the contact plane, signed: positive where
-/// orientation(a, b, c, q) > 0. Exact up to one rounding. 0 where a, b, c are collinear.
+/// orientation(a, b, c, q) > 0. Exact up to some roundings at the end, the sign always. 0 where a, b, c are collinear.
 inline double height_over_plane(const Coordinates& a, const Coordinates& b, const Coordinates& c,
                                 const Coordinates& q) {
   Exponent_range range;

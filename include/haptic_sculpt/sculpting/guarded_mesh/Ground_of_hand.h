@@ -10,18 +10,12 @@ namespace haptic_sculpt::internal {
 template <class Mesh, class Guard>
 class Ground_of_hand final : public Walk_ground {
 public:
-  /// \param leg what one leg says \param held what the last one that was stopped says; both are kept by the caller, to
-  /// allocate no more
-  Ground_of_hand(Guard& guard, const Mesh& mesh, const Drag_rules& rules, Drag_result<Mesh>& leg,
-                 Drag_result<Mesh>& held)
-      : guard_(guard), mesh_(mesh), rules_(rules), leg_(leg), held_(held) {}
+  /// \param leg what the last leg says; kept by the caller, to allocate no more
+  Ground_of_hand(Guard& guard, const Mesh& mesh, const Drag_rules& rules, Drag_result<Mesh>& leg)
+      : guard_(guard), mesh_(mesh), rules_(rules), leg_(leg) {}
 
   Coordinates leg(const Coordinates& source, const Coordinates& target) override {
-    leg_.legs = 0; // which it counts up
-    const Coordinates end = guard_.leg(source, target, rules_, leg_);
-    if (end != target)
-      held_ = leg_;
-    return end;
+    return guard_.leg(source, target, rules_, leg_);
   }
 
   std::optional<Stop> stop() const override {
@@ -54,7 +48,7 @@ private:
   Guard& guard_;
   const Mesh& mesh_;
   const Drag_rules& rules_;
-  Drag_result<Mesh>&leg_, &held_;
+  Drag_result<Mesh>& leg_;
 
   static Vertex number(Vertex_index v) { return static_cast<Vertex>(v); }
   static Face face(Vertex_index a, Vertex_index b, Vertex_index c) { return {number(a), number(b), number(c)}; }

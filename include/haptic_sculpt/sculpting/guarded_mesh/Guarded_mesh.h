@@ -117,7 +117,9 @@ public:
     return result;
   }
 
-  /// \throw Invalid_parameter where the scene has outgrown the clearance of drags that are given none
+  /// Whether the scene has outgrown the clearance of drags that are given none.
+  bool has_outgrown_clearance() { return scene_.has_outgrown(parameters.drag.clearance_length); }
+  /// \throw Invalid_parameter where that is so
   void check_clearance_serves() { scene_.check_clearance_serves(parameters.drag.clearance_length); }
 
   bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& given, double delta) {

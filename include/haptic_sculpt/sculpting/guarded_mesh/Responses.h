@@ -64,11 +64,11 @@ public:
       result.end = guard.is_spent() ? Drag_end::work_limit : Drag_end::held;
     } else {
       make_other(response);
-      held_.contacts.clear(), held_.stop_error = held_.stop_error_along_path = 0;
-      Ground_of_hand<Mesh, Guard> ground(guard, mesh, rules, leg_, held_);
+      leg_.contacts.clear(), leg_.legs = 0, leg_.stop_error = leg_.stop_error_along_path = 0;
+      Ground_of_hand<Mesh, Guard> ground(guard, mesh, rules, leg_);
       result.end = other_->move(ground, source, target, rules.clearance);
-      result.contacts = held_.contacts;
-      result.stop_error = held_.stop_error, result.stop_error_along_path = held_.stop_error_along_path;
+      result.contacts = leg_.contacts;
+      result.stop_error = leg_.stop_error, result.stop_error_along_path = leg_.stop_error_along_path;
       end = other_->place();
       result.legs = other_->path().legs();
     }
@@ -100,7 +100,7 @@ private:
   Slide_response<Mesh> slide_;
   std::unique_ptr<Other_walk> other_; ///< none until a response that is neither slide nor stop is asked for
   Response other_response_ = Response::stop; ///< whose that is
-  Drag_result<Mesh> leg_, held_; ///< one of its legs, the last that was stopped; kept to allocate no more
+  Drag_result<Mesh> leg_;                    ///< its last leg; kept to allocate no more
   std::vector<Half_space> permitted_; ///< by the contacts; kept to allocate no more
 
   void make_other(Response response) {

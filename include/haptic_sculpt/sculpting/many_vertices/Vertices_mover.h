@@ -85,10 +85,17 @@ private:
     if (drag_.response_rule == Response::slide) {
       const auto result = sculptor_.drag(v, target, drag_.work_limit(budget_.work_of_slide(bound_)));
       budget_.count_slide(result.work);
-      return result.reached;
+      return told(result);
     }
     const auto result = sculptor_.drag(v, target, drag_.work_limit(budget_.work_of_drag(bound_)));
     budget_.count_drag(result.work);
+    return told(result);
+  }
+
+  /// One that was cut short may be the last: nobody asks then whether there is room for another.
+  bool told(const Drag_result<Mesh>& result) {
+    if (result.end == Drag_end::work_limit)
+      budget_.has_room();
     return result.reached;
   }
 

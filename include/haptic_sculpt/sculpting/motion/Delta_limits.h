@@ -47,14 +47,14 @@ public:
     return time;
   }
 
-  /// The least of what their altitudes are above what they may not fall below, when J has come from the source to p.
-  double least_excess(const Star<Mesh>& star, const Coordinates& source, const Coordinates& p, double delta) const {
+  /// How far J, come from the source to p, is at least from where one of their altitudes is what it may not fall below:
+  /// its excess over its slope.
+  double least_distance(const Star<Mesh>& star, const Coordinates& source, const Coordinates& p, double delta) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Limit& limit : limits_) {
-      const auto altitude_at = [&](const Coordinates& j) {
-        return altitude(j, star.link_points[limit.face], star.link_points[star.next(limit.face)], limit.side);
-      };
-      least = std::fmin(least, altitude_at(p) - std::fmin(delta, altitude_at(source)));
+      const Coordinates &g = star.link_points[limit.face], &i = star.link_points[star.next(limit.face)];
+      const double least_altitude = std::fmin(delta, altitude(source, g, i, limit.side));
+      least = std::fmin(least, distance_to_altitude(p, g, i, limit.side, least_altitude));
     }
     return least;
   }

@@ -181,7 +181,7 @@ private:
                     double delta, Drag_result<Mesh>& result) const {
     const double made = length(minus(end, source));
     result.stop_error_along_path = std::fmax(0.0, std::fma(time, path_length(source, target), -made));
-    double normal = limits_.least_excess(star(), source, end, delta);
+    double normal = limits_.least_distance(star(), source, end, delta);
     for (const Contact_3<Mesh>& contact : result.contacts)
       if (!contact.is_flat)
         normal = std::fmin(normal, std::abs(height_over_plane(contact, end)));

@@ -27,11 +27,12 @@ public:
       forget();
     place_ = source;
     path_ = Slide_path(source);
-    const Drag_end why = walk(ground, target, clearances);
-    if (is_farther(target, place_, source)) {
-      place_ = source;
-      path_ = Slide_path(source);
-      forget(); // it does not touch what it met there
+    Drag_end why = walk(ground, target, clearances);
+    if (is_farther(target, place_, source)) { // no less than a stop does, and it touches nothing that it met there
+      forget();
+      place_ = source, path_ = Slide_path(source);
+      go_to(ground.leg(source, target));
+      why = place_ == target ? Drag_end::reached : Drag_end::held;
     }
     return ground.is_spent() && why != Drag_end::reached ? Drag_end::work_limit : why;
   }
@@ -69,16 +70,14 @@ private:
 
   Drag_end walk(Walk_ground& ground, const Coordinates& target, const Clearance_rule& clearances) {
     bool stands = false; // did not move in the turn before
-    for (int legs = 0; legs < most_legs; ++legs) {
+    for (int legs = 1; legs < most_legs; ++legs) {
       const std::optional<Aim> aim = next_aim(ground, target, clearances);
       if (aim && !aim->lifts_off && is_at(*aim))
-        return Drag_end::held;
+        return rest(ground, target, aim->clearance);
       const Vector goal = aim && !aim->lifts_off ? aim->place : target;
       const Coordinates end = ground.leg(place_, goal);
       const bool moved = end != place_;
-      place_ = end;
-      if (moved)
-        path_.add(end);
+      go_to(end);
       if (end == target) {
         forget();
         return Drag_end::reached;
@@ -92,7 +91,28 @@ private:
         return Drag_end::held;
       stands = !moved;
     }
-    return Drag_end::leg_limit;
+    go_to(ground.leg(place_, target)); // the last: so what stops it is what does so where it ends
+    touched_ = touched_at(ground.stop());
+    return place_ == target ? Drag_end::reached : Drag_end::leg_limit;
+  }
+
+  /// It is at the nearest point: what holds it there is asked for, and where that is nothing it goes on.
+  Drag_end rest(Walk_ground& ground, const Coordinates& target, double clearance) {
+    const Coordinates before = place_;
+    go_to(ground.leg(place_, target));
+    if (place_ == target) {
+      forget();
+      return Drag_end::reached;
+    }
+    if (length(minus(place_, before)) > clearance)
+      touched_ = touched_at(ground.stop());
+    return Drag_end::held;
+  }
+
+  void go_to(const Coordinates& end) {
+    if (end != place_)
+      path_.add(end);
+    place_ = end;
   }
 
   bool is_at(const Aim& aim) const {

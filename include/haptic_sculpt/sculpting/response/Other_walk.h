@@ -25,7 +25,7 @@ public:
     int side;
   };
 
-  /// One leg, proven free as far as it goes. What stopped it is what the drag reports, until another is stopped.
+  /// One leg, proven free as far as it goes. What stopped the last one is what the drag reports.
   virtual Coordinates leg(const Coordinates& source, const Coordinates& target) = 0;
   /// Of the last leg; nothing where no vertex met a face.
   virtual std::optional<Stop> stop() const = 0;

@@ -176,12 +176,14 @@ private:
     result.stop_error = result.stop_error_along_path = 0;
     if (end == Walk_end::reached)
       return;
-    double lowest = std::numeric_limits<double>::infinity();
+    constexpr double none = std::numeric_limits<double>::infinity();
+    double lowest = none, of_walls = none;
     for (const auto& facet : walk_.facets) {
       result.contacts.push_back(facet.contact());
-      lowest = std::fmin(lowest, std::fmax(0.0, facet.height()));
+      double& least = facet.is_wall() ? of_walls : lowest;
+      least = std::fmin(least, facet.distance());
     }
-    result.stop_error = std::isfinite(lowest) ? lowest : 0;
+    result.stop_error = lowest < none ? lowest : of_walls < none ? of_walls : 0;
   }
 };
 

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -157,15 +158,21 @@ private:
     std::string failure;
     std::vector<std::size_t> now(meshes_.size()); // the mesh that a component has become part of
     std::iota(now.begin(), now.end(), std::size_t(0));
+    std::vector<std::optional<bool>> known(meshes_.size()); // looked at once: each may meet many
+    const auto is_sound = [&](std::size_t c) {
+      if (!known[c])
+        known[c] = validate(meshes_[c], 0, 1).is_valid();
+      return *known[c];
+    };
     for (const auto& meeting : meeting_) {
       const std::size_t a = now[meeting.first.first], b = now[meeting.first.second];
       if (a == b)
         continue;
-      Work_mesh one = meshes_[a], other = meshes_[b], sum;
-      if (!validate(one, 0, 1).is_valid() || !validate(other, 0, 1).is_valid()) {
+      if (!is_sound(a) || !is_sound(b)) {
         ++failed;
         continue;
       }
+      Work_mesh one = meshes_[a], other = meshes_[b], sum;
       orient_components(one);
       orient_components(other);
       try {
@@ -184,6 +191,7 @@ private:
       const bool is_mesh = PMP::is_polygon_soup_a_polygon_mesh(soup.faces);
       meshes_[a] = is_mesh ? work_mesh(soup) : std::move(sum);
       meshes_[b].clear();
+      known[a].reset();
       for (std::size_t& c : now)
         if (c == b)
           c = a;
