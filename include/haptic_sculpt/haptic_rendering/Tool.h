@@ -5,6 +5,7 @@
 #include <haptic_sculpt/haptic_rendering/exchange/Journaled_edits.h>
 #include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
 #include <haptic_sculpt/haptic_rendering/loop/require_number.h>
+#include <haptic_sculpt/haptic_rendering/tool/Probe_placement.h>
 
 #include <utility>
 
@@ -192,12 +193,7 @@ private:
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero(), last_push_ = Eigen::Vector3d::UnitZ();
   std::optional<std::array<Vertex_index, 3>> touched_; ///< the face that the probe touches
   std::uint64_t journals_ = 0;                         ///< calls of keep_journal()
-  /// From where a vertex was let go, while the probe has no place yet.
-  struct Probe_placement {
-    Eigen::Vector3d place, away, from; ///< the vertex and its normal then; behind the last surface that was met
-    int tried = 0;                     ///< places
-  };
-  std::optional<Probe_placement> placement_;
+  std::optional<internal::Probe_placement> placement_; ///< while the probe has no place since a vertex was let go
   Tool_edits edits_;
   Journaled_edits<Sculptor> mesh_edits_;
   std::optional<Result> last_drag_;
@@ -208,7 +204,7 @@ private:
 
   /// From where things are sought that the hand wants.
   Eigen::Vector3d aim(const Eigen::Vector3d& hand) const {
-    return probe_ ? internal::vector_of(probe_->position()) : placement_ ? placement_->place : hand;
+    return probe_ ? internal::vector_of(probe_->position()) : placement_ ? placement_->place() : hand;
   }
 
   /// That is left of the offset after a tick.
@@ -227,11 +223,6 @@ private:
     return probe_.has_value();
   }
 
-  /// The nearest place that a Sculptor takes: from a large scene a few lengths lead beyond; a hand is refused.
-  static Eigen::Vector3d within_range(const Eigen::Vector3d& p) {
-    return p.cwiseMin(largest_coordinate).cwiseMax(-largest_coordinate);
-  }
-
   /// One that a change of the mesh has ended goes on where it is, or a little off, if that is outside; else it comes to
   /// the hand.
   void bring_probe(const Eigen::Vector3d& hand) {
@@ -240,7 +231,7 @@ private:
       drop_probe();
       for (const double share : {0.0, 0.02}) // pressed on, it may be nearer to a face than a probe may begin
         if (!probe_)
-          put_probe(within_range(place + share * reach() * last_push_));
+          put_probe(internal::within_range(place + share * reach() * last_push_));
     }
     if (!probe_ && carries_probe_) {
       offset_.setZero();
@@ -337,36 +328,17 @@ private:
     grab_.reset();
     mesh_edits_.end_stroke();
     if (carries_probe_)
-      placement_ = Probe_placement{place, away, place};
+      placement_.emplace(place, away);
     return Tool_event::released;
   }
 
-  /// Tries the next place of the probe: a little off the surface; from a pit too thin for that, behind what is around
-  /// it, along the vertex's normal and then along the last push. In the end bring_probe() has to do.
+  /// Tries the next place of the probe. In the end bring_probe() has to do.
   void try_next_place(const Eigen::Vector3d& hand) {
-    constexpr std::array<double, 3> shares{0.02, 0.2, 1.0};
-    constexpr int near = shares.size(), most_surfaces = 16; // a hand that is deeper inside comes out by itself
-    Probe_placement& next = *placement_;
-    const int tried = next.tried++;
-    if (tried < near)
-      put_probe(within_range(next.place + shares[tried] * reach() * next.away));
-    else {
-      const bool is_second = tried >= near + most_surfaces;
-      const Eigen::Vector3d& direction = is_second ? last_push_ : next.away;
-      if (tried == near + most_surfaces)
-        next.from = next.place;
-      const auto hit =
-          sculptor_->first_hit(internal::point_of<Point>(next.from),
-                               internal::point_of<Point>(within_range(next.place + 4 * map_.scale() * direction)));
-      if (hit) {
-        next.from = within_range(internal::vector_of(hit->point) + 0.2 * reach() * direction);
-        put_probe(next.from);
-      } else
-        next.tried = near + (is_second ? 2 : 1) * most_surfaces;
-    }
+    if (const auto place = placement_->next(*sculptor_, reach(), map_.scale(), last_push_))
+      put_probe(*place);
     if (probe_)
       anchor(internal::vector_of(probe_->position()), hand);
-    if (probe_ || next.tried == near + 2 * most_surfaces)
+    if (probe_ || placement_->is_over())
       placement_.reset();
   }
 
@@ -382,7 +354,7 @@ private:
     });
     mesh_edits_.end_stroke();
     if (was_held && carries_probe_)
-      placement_ = Probe_placement{place, away, place};
+      placement_.emplace(place, away);
     return made ? Tool_event::removed : Tool_event::refused;
   }
 };

@@ -21,6 +21,11 @@ Point point_of(const Eigen::Vector3d& v) {
   return Point(v[0], v[1], v[2]);
 }
 
+/// The nearest place that a Sculptor takes: from a large scene a few lengths lead beyond; a hand is refused.
+inline Eigen::Vector3d within_range(const Eigen::Vector3d& p) {
+  return p.cwiseMin(haptic_sculpt::largest_coordinate).cwiseMax(-haptic_sculpt::largest_coordinate);
+}
+
 /// The vertex that is nearest to p, not farther than `within`; the null index where there is none.
 template <class Sculptor>
 typename Sculptor::Vertex_index nearest_vertex(Sculptor& sculptor, const Eigen::Vector3d& p, double within) {

@@ -4,11 +4,6 @@
 #include <haptic_sculpt/surface/Aabb_traits.h>
 
 #include <CGAL/AABB_tree.h>
-#if CGAL_VERSION_NR >= 1060000000
-#include <CGAL/AABB_triangle_primitive_3.h>
-#else
-#include <CGAL/AABB_triangle_primitive.h>
-#endif
 
 #include <algorithm>
 #include <cmath>
@@ -54,17 +49,9 @@ struct Nearest_point_kernel : Kernel {
   Construct_projected_point_3 construct_projected_point_3_object() const { return {}; }
 };
 
-#if CGAL_VERSION_NR >= 1060000000
-template <class Kernel, class Triangle_iterator>
-using Triangle_primitive = CGAL::AABB_triangle_primitive_3<Kernel, Triangle_iterator>;
-#else
-template <class Kernel, class Triangle_iterator>
-using Triangle_primitive = CGAL::AABB_triangle_primitive<Kernel, Triangle_iterator>;
-#endif
-
 /// CGAL's tree over triangles, for nearest points. \pre coordinates whose squares are in the range of doubles
 template <class Kernel, class Triangle_iterator>
 using Nearest_point_tree = CGAL::AABB_tree<
-    Aabb_traits<Nearest_point_kernel<Kernel>, Triangle_primitive<Nearest_point_kernel<Kernel>, Triangle_iterator>>>;
+    Aabb_traits<Nearest_point_kernel<Kernel>, Aabb_triangle<Nearest_point_kernel<Kernel>, Triangle_iterator>>>;
 
 } // namespace haptic_sculpt::internal

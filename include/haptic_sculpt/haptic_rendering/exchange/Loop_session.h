@@ -225,7 +225,7 @@ private:
     const bool has_lost = journal_ != nullptr && journal_->has_overrun() && !is_overrun_seen();
     loop_->enter(scene.sculptor, scene.map);
     if (has_lost)
-      loop_->end_by(Loop_fault::log); // which entering has begun anew
+      loop_->end_by(Loop_fault::log); // found just now, or beside a fault that entering ends
     journal_number_ = loop_->tool().keep_journal(journal_ = journal);
     has_told_overrun_ = false;
     scene_->sculptor.visitor().mark_all(); // where it is entered again no viewer has it
