@@ -30,8 +30,8 @@ inline double json_number(const nlohmann::json& object, const char* key) {
 inline Eigen::VectorXd json_vector(const nlohmann::json& object, const char* key, std::size_t size,
                                    std::size_t other_size) {
   const auto found = object.find(key);
-  const std::string wanted =
-      "`" + std::string(key) + "` must be given, as an array of " + std::to_string(size) + " numbers";
+  const std::string wanted = "`" + std::string(key) + "` must be given, as an array of " + std::to_string(size) +
+                             (other_size == size ? "" : " or " + std::to_string(other_size)) + " numbers";
   if (found == object.end() || !found->is_array() || (found->size() != size && found->size() != other_size))
     throw Bad_request(wanted);
   Eigen::VectorXd values(found->size());

@@ -3,8 +3,10 @@
 
 #include <haptic_sculpt/Error.h>
 #include <nlohmann/json.hpp>
+#include <algorithm>
 #include <istream>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -74,8 +76,13 @@ private:
 /// `too_many_values` before anything deeper or more is built); std::bad_alloc
 inline nlohmann::json parse_bounded(std::string_view text) {
   using Event = nlohmann::json::parse_event_t;
-  if (text.find('\0') != text.npos) // the library takes it for the end
-    throw No_answer("malformed_json", "a byte 0 stands at column " + std::to_string(text.find('\0') + 1));
+  if (const std::size_t at = text.find('\0'); at != text.npos) { // the library takes it for the end
+    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    const std::size_t begin = line == 0 ? 0 : text.rfind('\n', at) + 1;
+    throw No_answer("malformed_json", "a byte 0 stands at " +
+                                          (line == 0 ? "" : "line " + std::to_string(line + 1) + ", ") + "column " +
+                                          std::to_string(at - begin + 1));
+  }
   int values = 0;
   return nlohmann::json::parse(text.begin(), text.end(), [&](int depth, Event event, nlohmann::json&) {
     const bool opens = event == Event::object_start || event == Event::array_start;

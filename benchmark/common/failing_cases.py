@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What `robustness --dump` has left of a run: each case, a mesh and a script, is made small within a bounded time."""
-import pathlib
 import subprocess
 import sys
 

@@ -45,30 +45,19 @@ def ends(report):
                         f"ends too early, of {total:,}", [Table("Families", ["family", "drags", "not reached", "certified", "missed", "gave up", "largest gain missed"], rows)])]
 
 
-def sweeps_by_oracle(report):
-    p = report["promises"][0]
-    return [of_promises("sweeps_by_oracle", report, f"{p['asked']:,} sweeps were asked of a second, exact implementation; {'all agree' if p['broken'] == 0 else 'some differ'}.",
-                        f"{p['asked']:,}", "sweeps asked twice", [])]
-
-
-def sweeps_by_cgal(report):
-    p = report["promises"][0]
-    return [of_promises("sweeps_by_cgal", report, f"{p['asked']:,} sweeps were asked of CGAL's predicates; {'all agree' if p['broken'] == 0 else 'some differ'}.",
-                        f"{p['asked']:,}", "sweeps asked twice", [])]
-
-
-def drags_by_oracle(report):
-    p = report["promises"][0]
-    return [of_promises("drags_by_oracle", report, f"{p['asked']:,} drags were decided once more, in integers over all pairs of faces; {'all agree' if p['broken'] == 0 else 'some differ'}.",
-                        f"{p['asked']:,}", "drags decided twice", [])]
-
-
-def axis_moves_by_oracle(report):
-    p = report["promises"][0]
-    return [of_promises("axis_moves_by_oracle", report, f"Of {p['asked']:,} axis moves the free ones were looked at on the way, exactly; {'all are embedded' if p['broken'] == 0 else 'some are not'}.",
-                        f"{p['asked']:,}", "axis moves tried", [])]
+def asked_twice(name, sentence, caption, held="all agree", broken="some differ"):
+    """The chart of a step of one promise. `sentence` has {n}, how many were asked, and {how}, how it went."""
+    def chart(report):
+        promise = report["promises"][0]
+        asked = f"{promise['asked']:,}"
+        return [of_promises(name, report, sentence.format(n=asked, how=broken if promise["broken"] else held), asked, caption, [])]
+    return chart
 
 
 CHARTS = {"drags_and_edits": drags_and_edits, "broad_phases": drags_and_edits, "drags_with_stop": drags_and_edits, "drags_with_paper": drags_and_edits, "drags_of_a_hand": drags_and_edits, "drags_of_a_hand_with_stop": drags_and_edits,
-          "ends": ends, "sweeps_by_oracle": sweeps_by_oracle, "sweeps_by_cgal": sweeps_by_cgal, "drags_by_oracle": drags_by_oracle,
-          "axis_moves_by_oracle": axis_moves_by_oracle}
+          "ends": ends,
+          "sweeps_by_oracle": asked_twice("sweeps_by_oracle", "{n} sweeps were asked of a second, exact implementation; {how}.", "sweeps asked twice"),
+          "sweeps_by_cgal": asked_twice("sweeps_by_cgal", "{n} sweeps were asked of CGAL's predicates; {how}.", "sweeps asked twice"),
+          "drags_by_oracle": asked_twice("drags_by_oracle", "{n} drags were decided once more, in integers over all pairs of faces; {how}.", "drags decided twice"),
+          "axis_moves_by_oracle": asked_twice("axis_moves_by_oracle", "Of {n} axis moves the free ones were looked at on the way, exactly; {how}.", "axis moves tried",
+                                              "all are embedded", "some are not")}

@@ -58,7 +58,7 @@ public:
   /// one (doc/use/properties.md says which). \param dead the descriptor that the old one had
   template <class Edge_index>
   void edge_replaces(Edge_index created, Edge_index dead);
-  /// The same for faces.
+  /// The same for faces. Of two old ones of a flip one is named, for both new ones.
   template <class Face_index>
   void face_replaces(Face_index created, Face_index dead);
 };

@@ -59,8 +59,13 @@ Line_outcome carry_out_brush(Sculptor& sculptor, const Command& command) {
   if (const Vertex_index nearest = sculptor.nearest_vertex(dab.centre, dab.radius);
       nearest.is_valid() && std::abs(dab.strength) > largest_strength(sculptor.mesh(), dab, nearest))
     return Line_outcome::refused("out-of-range", "the strength is more than 2^53 times what it is measured in");
-  const Move_report report = apply_brush(sculptor, std::array<Dab_3<Kernel>, 1>{dab},
-                                         boost::static_property_map<double, Vertex_index>(1.0), Move_parameters());
+  Move_report report;
+  try {
+    report = apply_brush(sculptor, std::array<Dab_3<Kernel>, 1>{dab},
+                         boost::static_property_map<double, Vertex_index>(1.0), Move_parameters());
+  } catch (const Out_of_range&) { // which names a vertex by the mesh's own index
+    return Line_outcome::refused("out-of-range", "a vertex under the brush would be out of range");
+  }
   sculptor.release(); // of the vertex that slid last: a drag of it is a grab of its own
   if (report.asked == 0)
     return Line_outcome::refused("nothing-in-reach", "no vertex is nearer to the centre than the radius");
@@ -95,8 +100,13 @@ Line_outcome carry_out_move(Sculptor& sculptor, const Command& command, Journal*
   const auto& [x, y, z] = command.edit.point;
   Journaled_edits<Sculptor, Journal> edits(sculptor);
   edits.keep_journal(journal);
-  const auto report = move_rigidly(edits, component_of(sculptor.mesh(), v),
-                                   CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION, Kernel::Vector_3(x, y, z)));
+  Rigid_move_report<Mesh> report;
+  try {
+    report = move_rigidly(edits, component_of(sculptor.mesh(), v),
+                          CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION, Kernel::Vector_3(x, y, z)));
+  } catch (const Out_of_range&) { // which names a vertex by the mesh's own index
+    return Line_outcome::refused("out-of-range", "a vertex of the object would be out of range", vertices_of(command));
+  }
   std::ostringstream detail;
   detail << "an object of " << report.asked << " vertices has gone " << 100 * report.share << " % of the way";
   Line_outcome done{nullptr, {{report.asked, report ? report.asked : 0}}, detail.str(), {}};
@@ -195,7 +205,12 @@ Line_outcome carry_out_line(Sculptor& sculptor, const Command& command, Journal*
   } catch (const Out_of_range& error) {
     return Line_outcome::refused("out-of-range", error.what());
   } catch (const Invalid_parameter& error) {
-    return Line_outcome::refused(clearance_of_no_use, error.what());
+    std::string detail = error.what();
+    if (command.kind == Kind::clearance)
+      detail += "; a script says none as `clearance default`";
+    else if (command.kind == Kind::brush) // by what an earlier line has set
+      detail = outgrown(error);
+    return Line_outcome::refused(clearance_of_no_use, detail);
   }
   return {};
 }

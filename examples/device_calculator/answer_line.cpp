@@ -64,12 +64,13 @@ json answer_or_failure(const json& request) {
 
 json examples::answer_line(const Line_reader& reader) {
   if (reader.is_too_long())
-    return failure("line_too_long", "a line may have " + std::to_string(longest_line) + " bytes; this one was skipped");
+    return failure("line_too_long", "line " + std::to_string(reader.number()) + ": a line may have " +
+                                        std::to_string(longest_line) + " bytes; this one was skipped");
   json request;
   try {
     request = parse_bounded(reader.line());
   } catch (const No_answer& error) {
-    return failure(error.code(), error.what());
+    return failure(error.code(), "line " + std::to_string(reader.number()) + ": " + error.what());
   } catch (const json::exception& error) {
     std::string words = examples::in_words(error, reader.number());
     if (words.compare(0, 5, "line ") != 0) // where a number is too large, say

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace haptic_sculpt::drawing {
@@ -124,9 +125,11 @@ public:
   double magnification() const { return zoom_; }
   ///@}
 
-  /// Where a point is seen, in pixels from the picture's upper left corner.
+  /// Where a point is seen, in pixels from the picture's upper left corner; not a number behind the eye.
   Eigen::Vector2d pixel(const Eigen::Vector3d& p) const {
     const Eigen::Vector4d clip = projection() * scaled(p).homogeneous();
+    if (!(clip.w() > 0))
+      return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
     return {(clip.x() / clip.w() + 1) / 2 * width_, (1 - clip.y() / clip.w()) / 2 * height_};
   }
 

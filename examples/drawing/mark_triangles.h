@@ -34,7 +34,9 @@ public:
     a += from * whole;
     if (a == b)
       return;
-    const double length = (b - a).stableNorm(), radius = s.radius * pixel_, dash = 11 * pixel_, period = 18 * pixel_;
+    const double length = (b - a).stableNorm(), radius = s.radius * pixel_;
+    // A line along the view lies within the frame as a whole, however near the eye looks.
+    const double period = std::max(18 * pixel_, length / most_dashes), dash = period * 11 / 18;
     const Eigen::Vector3d axis = (b - a) / length;
     const double step = s.dashed ? period : length;
     for (double t = 0; t < length; t += step) {
@@ -115,6 +117,8 @@ private:
       }
   }
 
+  // Across a picture of 9,000 pixels there are as many.
+  static constexpr double most_dashes = 500;
   // Marks keep this many pixels away from the picture's border.
   static constexpr double margin = 12;
 

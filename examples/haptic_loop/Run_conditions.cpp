@@ -53,9 +53,7 @@ Passivity_limits Run_conditions::limits(const Haptic_parameters& parameters, con
 
 void Run_conditions::check(const Haptic_parameters& parameters, const Passivity_limits& limits) const {
   try {
-    check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass, parameters.controller_damping.value_or(0),
-                   limits);
-    check_coupling(parameters.stiffest(), limits);
+    check_forces(parameters, limits);
   } catch (const Unstable_coupling& error) {
     if (settings_.device.viscous_friction > 0)
       throw;

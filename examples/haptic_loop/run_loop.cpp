@@ -122,7 +122,6 @@ private:
   Session* session_ = nullptr;
   Happenings* happenings_ = nullptr;
   Run_samples samples_;
-  double port_ = 0, dissipated_ = 0;
   Run_result result_;
   double free_since_ = 0;
   Row_file trace_, record_;
@@ -146,7 +145,8 @@ private:
     const double stiffness = parameters.stiffest().stiffness;
     if (limits.permits(parameters.stiffest()) && settings_.damping == 0 && stiffness > limits.recommended_stiffness())
       writer_.note("the stiffness " + examples::decimal(stiffness) +
-                   " N/m is passive, but a handle that nobody holds rings on it; recommended are at most " +
+                   (parameters.snap.length > 0 ? " N/m, the snap's with it," : " N/m") +
+                   " is passive, but a handle that nobody holds rings on it; recommended are at most " +
                    examples::decimal(limits.recommended_stiffness()) + " N/m, or a damping");
   }
 
@@ -156,7 +156,6 @@ private:
       if (is_interrupted_)
         return;
       log_->let_catch_up(session_->ticks());
-      port_ = loop.observer().port(), dissipated_ = loop.observer().dissipated();
       passed += std::round(reading.elapsed / tick_);
       if (!tick(loop, reading, passed * tick_))
         return;
@@ -181,7 +180,6 @@ private:
       reading.elapsed += std::exchange(stalled_, 0.0);
       if (!faults_.is_stall() && faults_.is_due(device.time()))
         faults_.spoil(reading, device.state().pose);
-      port_ = device.port(), dissipated_ = device.dissipated();
       if (!tick(loop, reading, device.time()))
         break;
       last = *tick_made_;

@@ -39,11 +39,9 @@ struct Arguments {
   std::optional<std::array<double, 3>> nearest;
 };
 
-/// Reads the command line. Where the program is to end now, people have been told: by what they asked for (true:
+/// Reads the command line. Where the program is to end now, people have read why: by what they asked for (true:
 /// `--help`,
 /// `--version`), or by what is wrong (false).
 std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments);
-
-using examples::Usage_error;
 
 } // namespace haptic_sculpt::sculpt_program

@@ -147,11 +147,11 @@ Sculpted_mesh mesh_of(const examples::Mesh_file& file, const Arguments& argument
     const auto& low = error.report().low_faces;
     if (low.empty() || low.size() != error.report().number_of_faults())
       throw;
-    throw Delta_of_no_use("--delta " + examples::decimal(delta) + " does not serve '" + arguments.mesh +
-                          "', which has " + std::to_string(low.size()) +
-                          " triangle(s) with an altitude below it, the first of them face " +
-                          std::to_string(static_cast<std::size_t>(low[0])) +
-                          "; give a smaller length, or leave the option out");
+    throw Delta_of_no_use(
+        "--delta " + examples::decimal(delta) + " does not serve '" + arguments.mesh + "'," +
+        (arguments.triangulate ? " its faces divided into triangles," : "") + " which has " +
+        std::to_string(low.size()) + " triangle(s) with an altitude below it, the first of them face " +
+        std::to_string(static_cast<std::size_t>(low[0])) + "; give a smaller length, or leave the option out");
   }
 }
 

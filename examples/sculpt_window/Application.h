@@ -147,6 +147,7 @@ private:
   std::size_t next_action_ = 0;
   std::optional<Clock::time_point> waits_until_;
   int settled_frames_ = 0;
+  bool is_misplaced_ = false; ///< the last place to move to was refused: nothing is pressed elsewhere
 
   std::FILE* record_ = nullptr;
   std::string recorded_to_;

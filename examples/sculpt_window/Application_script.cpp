@@ -82,13 +82,16 @@ bool Application::act(const Action& action) {
     const Eigen::Vector2d from = pixel_of(action.spot);
     const Eigen::Vector2d at =
         action.share > 0 ? Eigen::Vector2d(from + action.share * (pixel_of(action.to) - from)) : from;
-    if (at.cwiseAbs().maxCoeff() <= most_of_script)
+    is_misplaced_ = !(at.allFinite() && at.cwiseAbs().maxCoeff() <= most_of_script);
+    if (!is_misplaced_)
       on_move(at.x(), at.y());
     else
-      refuse("the place is too far beside what the window shows");
+      refuse("the place is too far beside what the window shows, or behind the eye");
     return true;
   }
   case Kind::press: {
+    if (is_misplaced_)
+      return true;
     const auto has = [&](const char* word) { return action.word.find(word) != std::string::npos; };
     on_press(has("right") ? 1 : has("middle") ? 2 : 0, has("shift"), has("ctrl"), has("alt"));
     return true;

@@ -5,6 +5,7 @@
 
 #include <boost/property_map/function_property_map.hpp>
 
+#include <algorithm>
 #include <thread>
 
 /// \file
@@ -59,10 +60,25 @@ inline auto share_left_free(const Scene& scene) {
   });
 }
 
-/// Remeshes faces to edges of about a length; masked vertices stay. Waits for the disk where the log has no room.
-/// \param times_broken_off Scene's, when it was asked for \return false: it was broken off \throw Invalid_parameter
-/// where it would be more triangles than can be worked with
-inline bool remesh(Scene& scene, Loop_task<Scene>::Tool_type& tool, const std::vector<Face_index>& faces, double length,
+/// The edges between masked vertices, as a property map: what a remeshing makes is not among them.
+struct Masked_edges {
+  using key_type = Mesh::Edge_index;
+  using value_type = bool;
+  using reference = bool;
+  using category = boost::read_write_property_map_tag;
+  const Scene* scene;
+
+  friend bool get(const Masked_edges& edges, key_type e) {
+    const Mesh& mesh = edges.scene->mesh;
+    return edges.scene->mask[mesh.vertex(e, 0)] > 0 && edges.scene->mask[mesh.vertex(e, 1)] > 0;
+  }
+  friend void put(const Masked_edges&, key_type, bool) {}
+};
+
+/// Remeshes faces to edges of about a length; masked vertices stay, and edges between them. Waits for the disk where
+/// the log has no room. \param times_broken_off Scene's, when it was asked for \return false: it was broken off \throw
+/// Invalid_parameter where it would be more triangles than can be worked with
+inline bool remesh(Scene& scene, Loop_task<Scene>::Tool_type& tool, std::vector<Face_index> faces, double length,
                    unsigned times_broken_off) {
   constexpr std::size_t most_faces = 5000000;
   bool goes_on = true;
@@ -75,10 +91,20 @@ inline bool remesh(Scene& scene, Loop_task<Scene>::Tool_type& tool, const std::v
   };
   const auto is_masked =
       boost::make_function_property_map<Vertex_index>([&mask = scene.mask](Vertex_index v) { return mask[v] > 0; });
+  faces.erase(std::remove_if(faces.begin(), faces.end(), // each would be a patch of its own
+                             [&](Face_index f) {
+                               const auto corners = scene.mesh.vertices_around_face(scene.mesh.halfedge(f));
+                               return std::all_of(corners.begin(), corners.end(),
+                                                  [&](Vertex_index v) { return get(is_masked, v); });
+                             }),
+              faces.end());
   try {
     tool.edit_by([&](auto& edits) {
       return isotropic_remeshing(faces, edits, length,
-                                 CGAL::parameters::number_of_iterations(2).vertex_is_constrained_map(is_masked),
+                                 CGAL::parameters::number_of_iterations(2)
+                                     .vertex_is_constrained_map(is_masked)
+                                     .edge_is_constrained_map(Masked_edges{&scene})
+                                     .protect_constraints(true),
                                  Remeshing_parameters().most_faces(most_faces).progress(may_go_on));
     });
   } catch (const Invalid_parameter&) {

@@ -8,6 +8,7 @@
 #include <iostream>
 
 /// The boxes of all faces, one after another. A model of BroadPhase: it has what its base has not.
+/// Edits tell it beforehand how many faces will come: what it does then may fail, what it does later may not.
 template <class Mesh>
 class Box_list : public haptic_sculpt::Broad_phase_base<Mesh, Box_list<Mesh>> {
 public:
@@ -22,6 +23,7 @@ public:
         faces.emplace_back(static_cast<typename Mesh::size_type>(f));
   }
 
+  void reserve(std::size_t faces, std::size_t) { boxes_.reserve(faces); }
   template <class Faces>
   void faces_inserted(const Faces& faces) {
     boxes_.resize(this->mesh().num_faces()); // a default box meets no other

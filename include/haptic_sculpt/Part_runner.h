@@ -11,6 +11,7 @@
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #endif
 #ifdef __SANITIZE_THREAD__
 #include <atomic>
@@ -62,9 +63,13 @@ public:
 #ifdef CGAL_LINKED_WITH_TBB
       runner.run_ = [](std::size_t parts, const void* task, void (*part)(const void*, std::size_t)) {
         internal::Told_order in_order;
-        tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t k) {
-          const internal::Rounding_to_nearest rounding; // a thread has a mode of its own
-          in_order([&] { part(task, k); });
+        // While it waits for the parts of others this thread might take another task of the caller's, which asks for
+        // what this one holds: the same Sculptor, in the middle of a decision, or its mutex.
+        tbb::this_task_arena::isolate([&] {
+          tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t k) {
+            const internal::Rounding_to_nearest rounding; // a thread has a mode of its own
+            in_order([&] { part(task, k); });
+          });
         });
       };
 #else

@@ -237,9 +237,11 @@ def missing_part():
 sys.path.insert(0, {str(ROOT / "benchmark/common")!r})
 import make_page
 print(make_page.findings("quality", {{"force": {{"did_not_fit": 5, "knocks": {{}}}}}}, []))
+without_rows = {{"simplification": "rows", "functions": "comparisons", "whole_drags": "scripts", "many_vertices": "rows"}}
+print(make_page.findings("quality", {{name: {{"did_not_fit": 3, "share": 0.5, rows: []}} for name, rows in without_rows.items()}}, []))
 make_page.findings("quality", {{"force": {{"knocks": {{}}}}}}, [])"""
     done = subprocess.run([PYTHON, "-c", asked], capture_output=True, text=True)
-    expect(done.stdout == "[]\n", f"a chart of forces without the rate: {done.stdout}{done.stderr}")
+    expect(done.stdout == "[]\n[]\n", f"charts of forces without the rate, and without rows: {done.stdout}{done.stderr}")
     expect("KeyError: 'rate'" in done.stderr, f"a whole report that lacks its rate is taken: {done.stderr}")
 
 

@@ -56,6 +56,8 @@ expect_errors(["[" * 50000000, " " * (2**20 - len(good_line) + 1) + good_line, '
 expect_errors(["[" + "[]," * 300000 + "[]]", "[" + "1," * 1000 + "1]", '{"x":[' + "1," * 999 + "1]}"], "too_many_values")
 expect_errors(['"' + "a" * 1000000, "\x00\x01\x1b[31m", good_line + "\x00 }{"], "malformed_json")
 expect(answers([good_line, '{"op":,}'])[1].get("message", "").startswith("line 2, column 7"), "the line of the input")
+for line in (good_line + "\x00", nested(33), "1" * 2**21):
+    expect(answers([good_line, line])[1].get("message", "").startswith("line 2: "), "the line of what cannot be read", line[:60])
 too_large = answers([good_line, '{"theta":[1e400,1,1]}'])[1]
 expect(too_large.get("message", "").startswith("line 2: "), "the line of a number that is too large", too_large)
 just, deep, many = answers([" " * (2**20 - len(good_line)) + good_line, nested(32), good_line[:-1] + ', "x": [' + "1," * 900 + "1]}"])

@@ -5,7 +5,6 @@
 A block of C++ is lines, one after another, of a file that is compiled; blanks do not count, and a line `// ...` stands for
 lines left out. In a block of commands, scripts, programs, options, environment variables and names of tests are looked up;
 the options of a program, in its --help, where it has been built."""
-import os
 import pathlib
 import re
 import shlex

@@ -2,6 +2,8 @@
 // Marks, arrows, labels and the legend.
 #include "drawing/pictures.h"
 
+#include <drawing/mark_triangles.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <utility>
@@ -122,4 +124,31 @@ BOOST_AUTO_TEST_CASE(labels_stand_beside_points_that_are_seen) {
   BOOST_TEST(changed_about(scene.points[7]).second == 0);
   scene.labels = {{scene.points[4], "17"}, {scene.points[4], "9999999"}}; // no room
   BOOST_TEST(changed_about(scene.points[4]).second == all);
+}
+
+// A way along the view is seen as a point, at any zoom, and is not cut by the frame.
+BOOST_AUTO_TEST_CASE(a_dashed_line_has_few_dashes_however_near_one_looks) {
+  Scene scene = icosahedron();
+  scene.segments.push_back({{0, 0, 2}, {0, 0, -2}, {1, 0, 0}, 3, true});
+  std::size_t at_first = 0;
+  for (const double zoom : {1.0, 10.0, Camera::most_magnification}) {
+    View view = small_view({0, 0, -1});
+    view.magnification = zoom;
+    const Camera camera(scene, view);
+    Mark_triangles triangles(camera);
+    triangles.add(scene.segments.back());
+    at_first = at_first == 0 ? triangles.corners().size() : at_first;
+    BOOST_TEST(triangles.corners().size() > 0u);
+    BOOST_TEST(triangles.corners().size() <= 501u * 600u);
+  }
+  BOOST_TEST(at_first < 20000u);
+}
+
+BOOST_AUTO_TEST_CASE(a_place_behind_the_eye_has_no_pixel) {
+  const Scene scene = icosahedron();
+  const Camera camera(scene, small_view({0, 1, 0}));
+  BOOST_TEST(camera.pixel({0, 0, 0}).allFinite());
+  BOOST_TEST(camera.pixel({0.3, -2, 0.2}).allFinite());
+  BOOST_TEST(!camera.pixel({0.3, -100, 0.2}).allFinite());
+  BOOST_TEST(!camera.pixel({0, -1e300, 0}).allFinite());
 }

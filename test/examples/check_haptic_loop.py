@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks haptic_loop as a user would run it: trace, report, replay, faults and exit codes. Arguments:
 sculpt, source folder, haptic_loop."""
+import atexit
 import csv
 import json
 import math
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -38,6 +40,7 @@ def vector(row, *names):
 
 
 folder = tempfile.mkdtemp()
+atexit.register(shutil.rmtree, folder, True)
 at = lambda name: os.path.join(folder, name)
 
 # What OUT loses is said once, as sculpt says it; nothing where nothing is lost.

@@ -423,8 +423,9 @@ except subprocess.TimeoutExpired:
 script = "settle\nkey h\nremesh 0.02\nkey escape\nsettle\nprint\nquit\n"
 lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 200, 150, script=script, what="escape of a list")
 check(lines and lines[0]["refused"] == "" and lines[0]["faces"] > 1600, f"escape of the list of keys: {lines}")
-# What was masked and remeshed can be brushed: masks that were interpolated are masks.
-lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 300, 225, what="a mask that was remeshed", script="""
+# What was created on masked faces can be brushed: masks that were interpolated, and rounded, are masks.
+created = "".join(f"click {x} {y}\n" for x in range(120, 181, 10) for y in range(90, 131, 10))
+lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 300, 225, what="a mask that was interpolated", script=f"""
 key tab
 view 0 1 0
 settle
@@ -432,8 +433,8 @@ brush mask 0.8 1
 click 150 112
 click 140 105
 settle
-remesh 0.05
-settle
+tool create
+{created}settle
 print
 brush inflate 0.5 1
 drag 120 100 180 130 8
@@ -442,7 +443,22 @@ print
 quit
 """)
 check(len(lines) == 2 and lines[1]["refused"] == "" and lines[1]["edits"] > lines[0]["edits"],
-      f"brushes beside a mask that was remeshed: {lines}")
+      f"brushes beside a mask that was interpolated: {lines}")
+# A place behind the eye is nowhere in the window: nothing is pressed.
+lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 300, 225, what="a place behind the eye", script="""
+key tab
+view 0 1 0
+settle
+where @0,-100,0
+brush inflate 0.5 1
+move 150 112
+click @0,-100,0
+settle
+print
+quit
+""")
+check(len(lines) == 2 and lines[0]["where"] == [None, None] and "behind the eye" in lines[1]["refused"] and lines[1]["edits"] == 0,
+      f"a place behind the eye: {lines}")
 # The report is of the last tick: it counts an edit if the log has one, however soon the window ends.
 for wait in ("", "wait 0.05\n", "wait 0.2\n"):
     log = at("ends_at_once.log")

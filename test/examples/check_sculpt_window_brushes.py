@@ -107,6 +107,10 @@ check(all(before[i] != after[i] for i in held), "what is unmasked as a whole mov
 _, after, _ = sculpted(f"brush mask 0.3 1\nclick {spot(centre)}\nbrush grab 0.5\nmove {spot(centre)}\nkey d\nremesh 0.05\n", "a mask and remeshing")
 kept = set(after)
 check(all(before[i] in kept for i in held), "masked vertices stay where they are when it is remeshed")
+masked = {before[i] for i in held}
+triangles_of = lambda path: {frozenset(corners) for corners in ([p[v] for v in face] for p, found in [surface(path)] for face in found)
+                             if masked.issuperset(corners)}
+check(len(triangles_of(BALL)) > 50 and triangles_of(BALL) <= triangles_of(at("out.off")), "so do the triangles between them")
 
 # Dabs with symmetry make what is its own mirror image. Sums of a vertex's neighbours are added up in other orders there: some
 # ulps of 1 a dab, and some for the place, whose mirror image is rounded.

@@ -17,6 +17,7 @@ from virtual_display import Display, Hand, environment_on
 display = Display()
 hand = Hand(display)
 folder = tempfile.mkdtemp()
+atexit.register(shutil.rmtree, folder, True)
 at = lambda name: os.path.join(folder, name)
 
 
@@ -112,7 +113,6 @@ hand.button(1, True)
 hand.key_goes("Shift_L", False)
 hand.move(*((a + b) / 2 for a, b in zip(second, above)), steps=4)
 hand.click(3)
-half_way = len(lines_of(log))
 hand.move(*above, steps=4)
 time.sleep(0.3)
 hand.button(1, False)

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs sculpt_window by scripts under Xvfb, replays its logs with sculpt, and reads its screenshots. Arguments of the check that
 imports this: sculpt, source folder, sculpt_window."""
+import atexit
 import colorsys
 import json
 import os
 import resource
+import shutil
 import struct
 import subprocess
 import tempfile
@@ -14,6 +16,7 @@ from program_runs import FURTHER as WINDOW, PATIENCE, bytes_of, check, run, writ
 from virtual_display import Display, environment_on
 
 folder = tempfile.mkdtemp()
+atexit.register(shutil.rmtree, folder, True)
 at = lambda name: os.path.join(folder, name)
 display = Display()
 

@@ -58,4 +58,27 @@ BOOST_AUTO_TEST_CASE(a_handle_is_as_fast_as_its_jacobian_and_steps_begin_after_t
   }
 }
 
+// D1's general form: on the straight way of the joints from one pose to the other its mode ends at a fold.
+BOOST_AUTO_TEST_CASE(a_restart_finds_the_handle_where_no_straight_way_leads_from_the_last_pose) {
+  const Device_parameters<double> parameters = device(Device_form::general);
+  const Device_pose<double> home = *home_pose(parameters);
+  const Vector3d before(-0.316, 2.212, 2.270), via(0.915, 0.179, -0.338), after(0.196, 1.012, 0.554);
+  Handle_motion handle(parameters, home, 0.001);
+  const auto go = [&](const Vector3d& from, const Vector3d& to) { // as a hand does; the last condition number
+    double condition = 0;
+    for (int k = 0; k <= 200; ++k)
+      condition = handle.follow(from + k / 200.0 * (to - from));
+    return condition;
+  };
+  go(home.theta, via);
+  BOOST_REQUIRE(std::isfinite(go(via, before)));
+  BOOST_TEST(!std::isfinite(handle.follow(after)));
+  BOOST_TEST((handle.pose().theta - before).norm() <= 1e-12);
+  handle.restart();
+  BOOST_TEST(handle.follow(after) < 5);
+  Handle_motion anew(parameters, home, 0.001);
+  anew.follow(after);
+  BOOST_TEST((handle.position() - anew.position()).norm() <= 1e-12);
+}
+
 } // namespace

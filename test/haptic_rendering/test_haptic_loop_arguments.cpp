@@ -105,3 +105,23 @@ BOOST_AUTO_TEST_CASE(a_coupling_that_is_not_passive_is_refused) {
     return what.find("not calm") != std::string::npos && what.find("finer encoders") != std::string::npos;
   });
 }
+
+// What a message names, can be done: a snap is weakened, a damping that the friction bounds is lessened.
+BOOST_AUTO_TEST_CASE(a_refusal_names_what_is_too_much) {
+  Passivity_limits limits;
+  limits.passive_stiffness = 800, limits.friction = limits.largest_damping = 0.5;
+  Haptic_parameters parameters;
+  parameters.coupling = {500, 0};
+  check_forces(parameters, limits);
+  const auto is_said = [&](const std::string& words) {
+    BOOST_CHECK_EXCEPTION(check_forces(parameters, limits), Unstable_coupling, [&](const Unstable_coupling& error) {
+      return std::string(error.what()).find(words) != std::string::npos;
+    });
+  };
+  parameters.snap.length = 0.004, parameters.snap.force = 1;
+  is_said("the stiffness 1000 N/m, of which the snap has 500 (2 force / length), is not passive");
+  parameters.snap.length = 0, parameters.coupling = {500, 0.6};
+  is_said("its friction at the handle, 0.5 N s/m");
+  parameters.coupling = {900, 0.1};
+  is_said("a smaller damping");
+}

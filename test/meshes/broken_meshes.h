@@ -140,11 +140,6 @@ inline Triangle_list loose_triangle() {
   return list;
 }
 
-/// A torus whose tube is thicker than its radius, so that it passes through itself.
-inline Triangle_list torus_through_itself() {
-  return torus(24, 12, 1.2);
-}
-
 /// What is to come through repair(), by name.
 inline std::vector<std::pair<std::string, Triangle_list>> broken_meshes() {
   return {{"hole", ball_with_a_hole()},

@@ -24,6 +24,8 @@ TICKS_A_SECOND = 1000
 FASTEST = 200
 # Minutes: before it is ended the loop has to have begun, to end in order, and its memory to have been looked at.
 LEAST = 0.1
+# Seconds in which it ends: it writes its mesh, log and report.
+IN_ORDER = 120
 # Bytes after the first quarter, touching only: what allocators keep in pieces, and pages used for the first time.
 ALLOWED = 4 << 20
 # Bytes that an edit may keep: those of a grab, a creation or a removal in the history, the mesh and the tables; 1.2 to
@@ -72,7 +74,12 @@ def main():
                 except (FileNotFoundError, IndexError, ProcessLookupError):
                     break
             process.terminate()  # it ends in order
-            process.wait()
+            try:
+                process.wait(timeout=IN_ORDER)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                print(f"FAULT: the loop has not ended {IN_ORDER} s after SIGTERM")
+                return 1
             said.seek(0)
             words = said.read()
         if process.returncode != 0 or not os.path.exists(at("report.json")):

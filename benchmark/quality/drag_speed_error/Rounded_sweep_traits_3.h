@@ -71,12 +71,8 @@ private:
       return determinant_sweep<double>(kind, x);
     case Arithmetic::long_doubles:
       return determinant_sweep<long double>(kind, x);
-    case Arithmetic::paper:
+    default:
       return Paper_sweep(kind, x)();
-    default: {
-      const std::optional<mpq_class> time = test::first_time(kind, x);
-      return time ? Sweep_answer{true, time->get_d()} : Sweep_answer{};
-    }
     }
   }
 };
@@ -88,9 +84,8 @@ struct Compare_rounded_time_3 {
   }
 };
 
-/// A model of SweptCollisionTraits_3 that decides in the arithmetic it is made with. All but Arithmetic::rationals go
-/// wrong now and then; that one asks the oracle of the tests, which shares nothing with the library's sweeps, and takes
-/// its time.
+/// A model of SweptCollisionTraits_3 that decides in the rounded arithmetic it is made with, and goes wrong now and
+/// then. \pre that is not Arithmetic::exact
 template <class K>
 class Rounded_sweep_traits_3 {
 public:

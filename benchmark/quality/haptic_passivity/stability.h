@@ -50,49 +50,45 @@ inline Contact_setup pressed(const Device_parameters<double>& device, const Devi
   return setup;
 }
 
-/// The largest stiffness, N/m, at which it buzzes in no hand; by halving up to `most`.
+/// The largest amount, by halving up to `most`, with which it buzzes in no hand. \param setup_of `setup_of(hand,
+/// amount)`
+template <class Setup_of>
+double largest_stable(double most, const Setup_of& setup_of) {
+  double low = 0, high = most;
+  for (int halving = 0; halving < 8; ++halving) {
+    const double middle = 0.5 * (low + high);
+    bool is_stable = true;
+    for (const Simulated_hand& hand : hands_of_chart())
+      is_stable = is_stable && is_calm(setup_of(hand, middle));
+    (is_stable ? low : high) = middle;
+  }
+  return low;
+}
+
+/// The largest stiffness, N/m.
 inline double largest_stable_stiffness(const Device_parameters<double>& device, const Device_pose<double>& pose,
                                        double damping, double tick, double delay, double most) {
-  double low = 0, high = most;
-  for (int halving = 0; halving < 8; ++halving) {
-    const double middle = 0.5 * (low + high);
-    bool is_stable = true;
-    for (const Simulated_hand& hand : hands_of_chart())
-      is_stable = is_stable && is_calm(pressed(device, pose, hand, {middle, damping}, tick, delay));
-    (is_stable ? low : high) = middle;
-  }
-  return low;
+  return largest_stable(most, [&](const Simulated_hand& hand, double stiffness) {
+    return pressed(device, pose, hand, {stiffness, damping}, tick, delay);
+  });
 }
 
-/// The largest damping, N s/m, at which it buzzes in no hand, with a stiffness.
+/// The largest damping, N s/m, with a stiffness.
 inline double largest_stable_damping(const Device_parameters<double>& device, const Device_pose<double>& pose,
                                      double stiffness, double tick, double delay, double most) {
-  double low = 0, high = most;
-  for (int halving = 0; halving < 8; ++halving) {
-    const double middle = 0.5 * (low + high);
-    bool is_stable = true;
-    for (const Simulated_hand& hand : hands_of_chart())
-      is_stable = is_stable && is_calm(pressed(device, pose, hand, {stiffness, middle}, tick, delay));
-    (is_stable ? low : high) = middle;
-  }
-  return low;
+  return largest_stable(most, [&](const Simulated_hand& hand, double damping) {
+    return pressed(device, pose, hand, {stiffness, damping}, tick, delay);
+  });
 }
 
-/// The largest virtual mass, kg, with which it buzzes in no hand while nothing is touched.
+/// The largest virtual mass, kg, while nothing is touched.
 inline double largest_stable_mass(const Device_parameters<double>& device, const Device_pose<double>& pose, double tick,
                                   double delay, double most) {
-  double low = 0, high = most;
-  for (int halving = 0; halving < 8; ++halving) {
-    const double middle = 0.5 * (low + high);
-    bool is_stable = true;
-    for (const Simulated_hand& hand : hands_of_chart()) {
-      Contact_setup setup = pressed(device, pose, hand, {0, 0}, tick, delay);
-      setup.virtual_mass.mass = middle;
-      is_stable = is_stable && is_calm(setup);
-    }
-    (is_stable ? low : high) = middle;
-  }
-  return low;
+  return largest_stable(most, [&](const Simulated_hand& hand, double mass) {
+    Contact_setup setup = pressed(device, pose, hand, {0, 0}, tick, delay);
+    setup.virtual_mass.mass = mass;
+    return setup;
+  });
 }
 
 } // namespace haptic_sculpt::passivity_benchmark

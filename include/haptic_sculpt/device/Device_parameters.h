@@ -129,18 +129,18 @@ template <class S> std::vector<std::string> violations(const Device_description<
   not_negative(d.coulomb_friction, "coulomb_friction (coulomb)");
   not_negative(d.encoder_step, "encoder_step");
   bool inertia_is_sound = true;
+  const char* const moments[] = {"platform_inertia (I) about x", "platform_inertia (I) about y",
+                                 "platform_inertia (I) about z"};
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t before = found.size();
-    not_negative(d.platform_inertia[axis], axis == 0   ? "platform_inertia (I) about x"
-                                           : axis == 1 ? "platform_inertia (I) about y"
-                                                       : "platform_inertia (I) about z");
+    not_negative(d.platform_inertia[axis], moments[axis]);
     inertia_is_sound = inertia_is_sound && found.size() == before;
   }
   if (inertia_is_sound)
     for (int axis = 0; axis < 3; ++axis) {
       const S others = d.platform_inertia.sum() - d.platform_inertia[axis];
       if (d.platform_inertia[axis] > others * (S(1) + internal::rounding_of_moments<S>()))
-        found.push_back("platform_inertia (I): one moment exceeds the sum of the two others, which no body has");
+        found.push_back(moments[axis] + std::string(" exceeds the sum of the two others, as it does of no body"));
     }
   for (int leg = 0; leg < 3; ++leg)
     if (!is_finite(d.least_angle[leg]) || !is_finite(d.greatest_angle[leg]) ||

@@ -10,15 +10,19 @@ namespace haptic_sculpt {
 /// Where the handle is and how it moves, from joint angles tick by tick. The assembly mode is carried on.
 class Handle_motion {
 public:
-  /// \param start a pose near the first angles
+  /// \param start a pose near the first angles; those after a restart() are sought from it, too, where the last pose
+  /// leads to none
   Handle_motion(const Device_parameters<double>& parameters, const Device_pose<double>& start, double tick)
-      : parameters_(parameters), pose_(start), tick_(tick), velocity_(tick) {}
+      : parameters_(parameters), start_(start), pose_(start), tick_(tick), velocity_(tick) {}
 
   /// \return the condition number of the position Jacobian; infinite where there is none, and the last pose stays
   double follow(const Eigen::Vector3d& theta) { return follow(theta, tick_); }
   /// The same where the tick has truly taken so long. \param elapsed s, > 0; does not count at the first angles
   double follow(const Eigen::Vector3d& theta, double elapsed) {
-    const auto pose = forward_kinematics(parameters_, theta, pose_);
+    auto pose = forward_kinematics(parameters_, theta, pose_);
+    if (!pose &&
+        is_first_) // nobody has read on which way the hand has come since restart(); else it has to be led back
+      pose = forward_kinematics(parameters_, theta, start_);
     if (!pose)
       return std::numeric_limits<double>::infinity();
     const auto map = haptic_sculpt::jacobian(parameters_, *pose);
@@ -47,12 +51,13 @@ public:
   /// Whether the last angles were not the first: then the steps above are steps.
   bool has_step() const { return has_step_; }
 
-  /// The next angles are taken as they are: no step leads there.
+  /// The next angles are taken as they are: no step leads there. Where no straight way of the joints does, neither from
+  /// the last pose nor from the start, the hand has to be led back.
   void restart() { is_first_ = true, velocity_.reset(); }
 
 private:
   Device_parameters<double> parameters_;
-  Device_pose<double> pose_;
+  Device_pose<double> start_, pose_;
   Device_jacobian<double> jacobian_{Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
   double tick_;
   Velocity_estimate velocity_;

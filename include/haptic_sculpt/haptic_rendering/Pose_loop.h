@@ -108,9 +108,7 @@ private:
     limits.largest_damping = std::fmin(limits.friction, parameters.device.mass *
                                                             largest_damping_rate(parameters.tick, parameters.delay));
     limits.largest_controller = parameters.largest_controller(), limits.largest_mass = parameters.largest_mass();
-    check_coupling(parameters.checked().stiffest(), limits);
-    check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass, parameters.controller_damping.value_or(0),
-                   limits);
+    check_forces(parameters.checked(), limits);
   }
 };
 

@@ -58,7 +58,7 @@ public:
     const auto in_hand = [this] { return holds_vertex() ? grab_->vertex() : Vertex_index(); };
     const Vertex_index held = in_hand();
     step.event = press(hand, button);
-    const bool has_changed_hands = in_hand() != held;
+    const bool has_changed_hands = in_hand() != held || step.event == Tool_event::grabbed;
     if (grab_ && !is_anchored_)
       anchor(place_of(grab_->vertex()), hand);
     const bool looks_for_place = placement_ && !has_changed_hands;
@@ -175,6 +175,12 @@ public:
   /// That is held; null where none is.
   Vertex_index vertex() const { return grab_ ? grab_->vertex() : Vertex_index(); }
   const std::optional<Probe_type>& probe() const { return probe_; } ///< where there is one
+  /// Where the vertex in hand is, or the probe; none where neither is there.
+  std::optional<Eigen::Vector3d> place() const {
+    if (holds_vertex())
+      return place_of(vertex());
+    return probe_ ? std::optional<Eigen::Vector3d>(internal::vector_of(probe_->position())) : std::nullopt;
+  }
   const Tool_edits& edits() const { return edits_; } ///< of the button, in all scenes; edit() does not count
   /// What the drag of the last move() came to; none where it made none.
   const std::optional<Result>& last_drag() const { return last_drag_; }
@@ -204,7 +210,7 @@ private:
 
   /// From where things are sought that the hand wants.
   Eigen::Vector3d aim(const Eigen::Vector3d& hand) const {
-    return probe_ ? internal::vector_of(probe_->position()) : placement_ ? placement_->place() : hand;
+    return place().value_or(placement_ ? placement_->place() : hand);
   }
 
   /// That is left of the offset after a tick.

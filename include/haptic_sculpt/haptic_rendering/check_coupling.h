@@ -14,33 +14,44 @@ public:
   using Error::Error;
 };
 
-/// \throw Unstable_coupling
-inline void check_coupling(const Virtual_coupling& coupling, const Passivity_limits& limits) {
+/// \param of_snap how much of the stiffness is a snap's, N/m \throw Unstable_coupling
+inline void check_coupling(const Virtual_coupling& coupling, const Passivity_limits& limits, double of_snap = 0) {
   if (limits.permits(coupling))
     return;
   const bool is_passive = limits.largest_stiffness() < limits.passive_stiffness; // up to where it is calm
-  throw Unstable_coupling("the stiffness " + internal::number(coupling.stiffness) + " N/m is not " +
+  const std::string snap =
+      of_snap > 0 ? ", of which the snap has " + internal::number(of_snap) + " (2 force / length)," : "";
+  throw Unstable_coupling("the stiffness " + internal::number(coupling.stiffness) + " N/m" + snap + " is not " +
                           (is_passive ? "calm" : "passive") + " on this device with the damping " +
                           internal::number(coupling.damping) + " N s/m: that ends at " +
                           internal::number(limits.largest_stiffness()) + "; ask for less, for " +
+                          (coupling.damping > 0 ? "a smaller damping, for " : "") +
                           (is_passive ? "finer encoders" : "a higher rate or for a shorter delay"));
 }
 
 /// \throw Unstable_coupling for a damping, virtual mass or controller that is larger than what serves
 inline void check_dynamics(double damping, double virtual_mass, double controller,
                            const Passivity_limits& limits) {
-  const auto check = [](const char* what, const char* unit, double asked, double largest) {
+  const auto check = [](const char* what, const char* unit, double asked, double largest, bool is_friction = false) {
     if (!(asked <= largest))
       throw Unstable_coupling("the " + std::string(what) + ' ' + internal::number(asked) + ' ' + unit +
-                              " is not stable on this device; the largest that serves at this rate and delay is " +
+                              " is not stable on this device; the largest that serves " +
+                              (is_friction ? "is its friction at the handle, " : "at this rate and delay is ") +
                               internal::number(largest) + ' ' + unit);
   };
-  check("damping", "N s/m", damping, limits.largest_damping);
+  check("damping", "N s/m", damping, limits.largest_damping, limits.largest_damping == limits.friction);
   check("virtual mass", "kg", virtual_mass, limits.largest_mass);
   check("damping of the passivity controller", "N s/m", controller, limits.largest_controller);
 }
 
-/// All of the above for a device of joints. \throw Unstable_coupling; Error for limits made for another device, map,
+/// All of the above. \throw Unstable_coupling
+inline void check_forces(const Haptic_parameters& parameters, const Passivity_limits& limits) {
+  check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass, parameters.controller_damping.value_or(0),
+                 limits);
+  check_coupling(parameters.stiffest(), limits, parameters.snap.stiffness());
+}
+
+/// The same for a device of joints. \throw Unstable_coupling; Error for limits made for another device, map,
 /// tick, delay, damping, cutoff or fading
 inline void check_limits(const Passivity_limits& limits, const Device_parameters<double>& device,
                          const Workspace_map& map, const Haptic_parameters& parameters) {
@@ -49,9 +60,7 @@ inline void check_limits(const Passivity_limits& limits, const Device_parameters
                       parameters.virtual_mass.cutoff))
     throw Error("the limits of passivity were made for another device, map, tick, delay, damping, cutoff or fading of "
                 "the force; make them anew with passivity_limits()");
-  check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass, parameters.controller_damping.value_or(0),
-                 limits);
-  check_coupling(parameters.stiffest(), limits);
+  check_forces(parameters, limits);
 }
 
 } // namespace haptic_sculpt

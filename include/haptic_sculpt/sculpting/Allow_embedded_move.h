@@ -26,6 +26,9 @@ public:
     if (&mesh != &sculptor.mesh())
       throw Invalid_parameter("Allow_embedded_move: give the mesh that the Sculptor guards, not another one");
   }
+  // No move, which would leave one that has no count: what is moved is copied.
+  Allow_embedded_move(const Allow_embedded_move&) = default;            ///< which counts with it
+  Allow_embedded_move& operator=(const Allow_embedded_move&) = default; ///< likewise
 
   /// A target that is not finite or out of range is refused, too. \throw Mesh_changed
   /// By value: CGAL passes a reference to the point in the mesh, which is put back here.

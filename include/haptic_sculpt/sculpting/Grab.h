@@ -77,9 +77,12 @@ private:
     sculptor_->set_hand(this);
   }
 
-  /// Another Grab takes the hand, or a drag has thrown.
+  /// Another Grab takes the hand, or a drag has thrown. Nothing is asked that may throw.
   void note_place() noexcept {
-    if (const Vertex_index v = vertex(); v.is_valid() && sculptor_->mesh().has_valid_index(v)) // it may be cleared
+    if (sculptor_ == nullptr)
+      return;
+    const Vertex_index v = sculptor_->guarded_.editor().ids().vertex(id_);
+    if (v.is_valid() && sculptor_->mesh().has_valid_index(v)) // it may be cleared
       place_ = sculptor_->mesh().point(v);
   }
 

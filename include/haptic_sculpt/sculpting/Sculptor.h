@@ -60,6 +60,10 @@ public:
   static_assert(std::is_same<typename CGAL::Kernel_traits<Point>::Kernel::FT, double>::value,
                 "Sculptor: the mesh's points must have double coordinates, e.g. those of "
                 "CGAL::Exact_predicates_inexact_constructions_kernel");
+  static_assert(
+      sizeof(Point) >= 3 * sizeof(double),
+      "Sculptor: the mesh's points must hold their coordinates; those of CGAL::Cartesian<double> are handles, "
+      "and every write of one asks for memory: use CGAL::Simple_cartesian<double>");
 
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does
   /// not obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log
@@ -315,7 +319,10 @@ public:
       throw Open_stroke("delta may not change within a stroke: end the stroke first");
     const Sculptor_parameters changed = Sculptor_parameters(parameters()).delta(length);
     check_unchanged();
-    internal::checked_scene(mesh(), changed);
+    Sculptor_parameters asked = changed;
+    asked.drag.clearance(std::nullopt); // it was checked when it was set
+    internal::checked_scene(mesh(), asked);
+    guarded_.check_clearance_serves();
     release();
     guarded_.parameters = changed;
   }
@@ -323,8 +330,8 @@ public:
   /// \throw Mesh_changed if anything was changed by others, points or connectivity. Cost: reads all of the mesh.
   void check_unchanged() const { guarded_.check_unchanged(); }
 
-  /// Bytes held that grow with the mesh, capacity included. Not the mesh itself, nor the history, nor what moves of
-  /// many vertices leave for the next one.
+  /// Bytes held that grow with the mesh, capacity included. Not the mesh itself, nor the history, nor the lists
+  /// of single rounds of axis moves.
   std::size_t memory() const { return guarded_.memory(); }
 
 private:

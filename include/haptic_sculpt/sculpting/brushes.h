@@ -42,27 +42,29 @@ Move_report apply_brush(Sculptor& sculptor, const Dab_range& dabs, const Mask_ma
   using Point = typename Sculptor::Point;
   const internal::Rounding_to_nearest rounding;
   const auto& mesh = sculptor.mesh();
-  std::vector<std::pair<Vertex_index, Point>> wanted;
+  using Vector = decltype(std::declval<Point>() - std::declval<Point>());
+  std::vector<std::pair<Vertex_index, Vector>> wanted;
   for (const auto& dab : dabs) {
     internal::check_dab(dab);
     if (const Vertex_index nearest = sculptor.nearest_vertex(dab.centre, dab.radius); nearest.is_valid()) {
       internal::check_strength(mesh, dab, nearest);
       const bool inside_out = dab.kind == Brush_kind::inflate && sculptor.is_inside_out(nearest);
       const auto asking = internal::Sculptor_access::guarded(sculptor).asking(); // the mask
-      internal::for_each_brush_target(touched_vertices(mesh, dab, nearest), mesh, dab, mask, inside_out,
-                                      [&](Vertex_index v, const Point& p) { wanted.emplace_back(v, p); });
+      internal::for_each_brush_way(touched_vertices(mesh, dab, nearest), mesh, dab, mask, inside_out,
+                                   [&](Vertex_index v, const Vector& way) { wanted.emplace_back(v, way); });
     }
   }
   std::stable_sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Vertex_index> vertices;
-  std::vector<Point> targets;
-  for (const auto& [v, p] : wanted)
+  std::vector<Vector> ways; // sums, and rounded to places once: those of a dab and its mirror image are 0 between them
+  for (const auto& [v, way] : wanted)
     if (!vertices.empty() && vertices.back() == v)
-      targets.back() = targets.back() + (p - mesh.point(v));
+      ways.back() = ways.back() + way;
     else
-      vertices.push_back(v), targets.push_back(p);
+      vertices.push_back(v), ways.push_back(way);
   return internal::move_to_targets(
-      sculptor, vertices, [&, k = std::size_t{0}](Vertex_index) mutable { return targets[k++]; }, parameters,
+      sculptor, vertices,
+      [&, k = std::size_t{0}](Vertex_index v) mutable { return internal::gone(mesh.point(v), ways[k++]); }, parameters,
       CGAL::Emptyset_iterator(), Part_runner::by<Concurrency_tag>());
 }
 

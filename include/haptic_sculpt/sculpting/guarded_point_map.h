@@ -49,6 +49,9 @@ public:
   /// Counts from 0. \param sculptor must outlive this and its copies
   Guarded_point_map(Sculptor& sculptor, Guard_policy policy)
       : sculptor_(&sculptor), policy_(policy), counts_(std::make_shared<Guard_counts>()) {}
+  // No move, which would leave a map that has no counts: what is moved is copied.
+  Guarded_point_map(const Guarded_point_map&) = default;            ///< which counts with it
+  Guarded_point_map& operator=(const Guarded_point_map&) = default; ///< likewise
 
   /// How many points were written at which their vertices are not.
   std::size_t refused() const { return counts_->refused; }

@@ -63,8 +63,10 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
   const internal::Scaled_points<Mesh> points(sculptor.mesh(), target_edge_length, range);
   internal::Remeshing_named_parameters named;
   named.target_edge_length = points.in_unit(target_edge_length);
-  named.iterations = choose_parameter(get_parameter(np, names::number_of_iterations), 1u);
-  named.relaxation_steps = choose_parameter(get_parameter(np, names::number_of_relaxation_steps), 1u);
+  named.iterations = internal::checked_count("number_of_iterations",
+                                             choose_parameter(get_parameter(np, names::number_of_iterations), 1u));
+  named.relaxation_steps = internal::checked_count(
+      "number_of_relaxation_steps", choose_parameter(get_parameter(np, names::number_of_relaxation_steps), 1u));
   named.protect_constraints = choose_parameter(get_parameter(np, names::protect_constraints), false);
   named.collapse_constraints = choose_parameter(get_parameter(np, names::collapse_constraints), true);
   named.relax_constraints = choose_parameter(get_parameter(np, names::relax_constraints), false);

@@ -45,9 +45,10 @@ Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Ta
                             const Move_parameters& parameters, Output_iterator left_behind,
                             const Part_runner& run = Part_runner()) {
   const auto asked = moving_vertices(sculptor.mesh(), vertices, target_of);
-  check_clearance_at_targets(asked, sculptor.parameters().drag.clearance_length);
-  if (parameters.drags_singly && !asked.empty()) // which would ask when others have moved
+  if (parameters.drags_singly && !asked.empty()) { // drags would ask when others have moved
+    check_clearance_at_targets(asked, sculptor.parameters().drag.clearance_length);
     Sculptor_access::guarded(sculptor).check_clearance_serves();
+  }
   Move_report report;
   report.asked = asked.size();
   measure_distances(sculptor.mesh(), asked, report.asked_l2, report.asked_max);

@@ -154,7 +154,7 @@ inline Face_soup rounded_to_float(Face_soup soup) {
         "rounding");
   if (const Validity_report report = validate_soup(rounded); !report.is_valid())
     throw Write_error("rounded to the floats of binary STL the surface is no longer valid; write ASCII STL or PLY "
-                      "(elements in the order of the file):\n" +
+                      "(faces in the order of the file, vertices in that of the mesh, or as asked for):\n" +
                       report.message());
   soup = std::move(rounded);
 }

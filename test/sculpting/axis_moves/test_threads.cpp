@@ -12,11 +12,14 @@
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
 
 #include <atomic>
 #include <cfenv>
+#include <chrono>
+#include <thread>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -187,5 +190,28 @@ BOOST_AUTO_TEST_CASE(parts_round_to_nearest_and_throw_to_the_caller) {
                               throw Invalid_parameter("on purpose");
                           }),
                       Invalid_parameter);
+}
+
+// A thread that waits for what others do of a call begins no other task of the caller's, which might ask for the same
+// Sculptor, or for the mutex that guards it.
+BOOST_AUTO_TEST_CASE(no_other_task_begins_within_a_call) {
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 4); // however few processors there are
+  const auto run = Part_runner::by<CGAL::Parallel_tag>();
+  std::atomic<int> begun_within = 0, calls = 0;
+  static thread_local bool is_within = false;
+  tbb::task_arena arena(4);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, std::size_t{1000}, [&](std::size_t call) {
+      begun_within += is_within;
+      const bool was_within = std::exchange(is_within, true);
+      run(3, [&](std::size_t k) { // uneven: some wait for others
+        std::this_thread::sleep_for(std::chrono::microseconds((7 * call + 5 * k) % 11 * 20));
+      });
+      is_within = was_within;
+      ++calls;
+    });
+  });
+  BOOST_TEST(calls == 1000);
+  BOOST_TEST(begun_within == 0);
 }
 #endif

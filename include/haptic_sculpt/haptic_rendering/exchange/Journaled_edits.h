@@ -16,7 +16,7 @@ namespace haptic_sculpt {
 /// apply_brush(), move_rigidly(), isotropic_remeshing().
 ///
 /// What a visitor throws leaves an edit that stands, maybe in part, and nobody can say how: the journal breaks off,
-/// except by shifts of many vertices at once, which it has.
+/// except by shifts of many vertices at once, which it has unless the Sculptor has ended (Unfinished_change).
 ///
 /// \tparam Journal has `add(const Edit&)`, which is called once the edit stands, and `break_off()`; they throw nothing
 template <class Sculptor, class Journal = Edit_journal>
@@ -212,7 +212,10 @@ private:
         tell_shift(ways, before, made);
         return is_done;
       } catch (...) { // the visitor's, when all has moved
-        tell_shift(ways, before, made);
+        if (guarded().is_whole())
+          tell_shift(ways, before, made);
+        else if (edits_->journal_ != nullptr) // of a Sculptor that has ended vertices have no numbers
+          edits_->journal_->break_off();
         throw;
       }
     }

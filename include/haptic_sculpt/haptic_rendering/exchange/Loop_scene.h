@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/haptic_rendering/Workspace_map.h>
+#include <haptic_sculpt/haptic_rendering/exchange/Scene_feed.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Scene_visitor.h>
 #include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
 #include <haptic_sculpt/sculpting.h>

@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/haptic_rendering/exchange/Copy_task.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_scene.h>
+#include <haptic_sculpt/haptic_rendering/exchange/Scene_feed.h>
 
 #include <cstring>
 #include <new>

@@ -3,7 +3,6 @@
 
 #include <haptic_sculpt/haptic_rendering/exchange/Changed_faces.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Scene_copy.h>
-#include <haptic_sculpt/haptic_rendering/exchange/Scene_feed.h>
 #include <haptic_sculpt/sculpting/Edit_visitor.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 

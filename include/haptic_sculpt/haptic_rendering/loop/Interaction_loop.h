@@ -73,12 +73,13 @@ public:
   /// that no tick has said yet is not over by that: the next tick says it. Under an open clutch a probe stays where it
   /// is; where a vertex was in hand the tool goes on from where the handle is.
   void restart() {
+    const internal::Rounding_to_nearest rounding;
     const Loop_fault unsaid = tick_.fault == Loop_fault::none ? interaction_.fault() : Loop_fault::none;
     interaction_.restart(), tool_.let_go();
     has_place_ = has_place_ && is_clutch_open_ && tool_.holds_probe(); // it goes on from there
     const Tool_step last = std::exchange(tick_, Haptic_tick()).tool;
     tick_.tool.target = tick_.tool.proxy = last.proxy;
-    zoom_ = 1;
+    zoom_ = 1, is_map_due_ = is_clutch_open_;
     if (unsaid != Loop_fault::none)
       interaction_.report(unsaid);
     else
@@ -99,8 +100,9 @@ public:
   /// the tool is. \throw Error for a factor that makes no scale > 0, or none that can be kept where the tool is now
   void zoom(double factor) {
     const internal::Rounding_to_nearest rounding;
-    const Eigen::Vector3d handle = has_place_ ? interaction_.side().position() : map_.home();
-    const Eigen::Vector3d place = has_place_ ? place_ : map_.origin();
+    const bool has_place = has_place_ || tool_.place();
+    const Eigen::Vector3d handle = has_place ? interaction_.side().position() : map_.home();
+    const Eigen::Vector3d place = has_place ? tool_place(handle) : map_.origin();
     const double zoom = zoom_ * factor;
     map_.pinned(handle, place, map_.scale() * zoom); // throws here, not in a tick
     zoom_ = zoom, is_map_due_ = true;
@@ -153,6 +155,13 @@ private:
   double zoom_ = 1;                                 ///< asked for since the map was made
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero(); ///< of the tool in the last tick, in the scene
 
+  /// Where the tool is, in the scene: where what it holds is, as something may have been put into the hand since the
+  /// last tick; else where it was then; else where the handle is.
+  Eigen::Vector3d tool_place(const Eigen::Vector3d& handle) const {
+    const auto held = tool_.place();
+    return held ? *held : has_place_ ? place_ : map_.to_scene(handle);
+  }
+
   void run(const Reading& reading) {
     if (!interaction_.follow(reading))
       return;
@@ -162,12 +171,14 @@ private:
     const int button = button_.next(reading.button, reading.elapsed);
     if (is_clutch_open_) {
       tick_.tool = Tool_step();
-      tick_.tool.target = tick_.tool.proxy = has_place_ ? place_ : map_.to_scene(handle);
+      tick_.tool.target = tick_.tool.proxy = tool_place(handle);
+      if (tool_.place()) // it stays there when that is let go of
+        place_ = tick_.tool.proxy, has_place_ = true;
       interaction_.render_nothing();
       return;
     }
     if (is_map_due_) {
-      map_ = map_.pinned(handle, has_place_ ? place_ : map_.to_scene(handle), map_.scale() * zoom_);
+      map_ = map_.pinned(handle, tool_place(handle), map_.scale() * zoom_);
       tool_.change_map(map_);
       zoom_ = 1, is_map_due_ = false;
     }

@@ -27,10 +27,11 @@ Edit_result<Mesh> shift_all(Guarded& guarded, int axis, Axis_ways<Mesh> ways, co
   targets.reserve(ways.size());
   for (const auto& [v, end] : ways) {
     check_vertex(guarded.mesh(), v);
-    if (!is_in_range(end))
-      throw_out_of_range("where vertex " + std::to_string(static_cast<std::size_t>(v)) + " is to go", {end, end, end});
     targets.emplace_back(v, vertex_coordinates(guarded.mesh(), v));
     targets.back().second[axis] = end;
+    if (!is_in_range(end))
+      throw_out_of_range("where vertex " + std::to_string(static_cast<std::size_t>(v)) + " is to go",
+                         targets.back().second);
   }
   ways.erase(std::remove_if(
                  ways.begin(), ways.end(), // what is there already: no vertex that was moved

@@ -64,10 +64,10 @@ void check_dab(const Dab_3<Kernel>& dab) {
       check_range("the direction of a dab", x);
 }
 
-/// Calls `put(v, place)` with each vertex and where a dab wants it.
+/// Calls `put(v, way)` with each vertex and how far a dab wants it to go.
 template <class Mesh, class Kernel, class Mask_map, class Put>
-void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& vertices, const Mesh& mesh,
-                           const Dab_3<Kernel>& dab, const Mask_map& mask, bool inside_out, const Put& put) {
+void for_each_brush_way(const std::vector<typename Mesh::Vertex_index>& vertices, const Mesh& mesh,
+                        const Dab_3<Kernel>& dab, const Mask_map& mask, bool inside_out, const Put& put) {
   using Vector_3 = typename Kernel::Vector_3;
   const auto weight = [&](typename Mesh::Vertex_index v) {
     const double square = dab.squared_share(mesh.point(v)), part = get(mask, v);
@@ -109,8 +109,14 @@ void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& verti
   };
   for (const auto v : vertices) {
     const double w = weight(v);
-    put(v, w == 0 ? mesh.point(v) : mesh.point(v) + dab.strength * w * wanted(v));
+    put(v, w == 0 ? Vector_3(CGAL::NULL_VECTOR) : dab.strength * w * wanted(v));
   }
+}
+
+/// Where a vertex at p is that goes a way; -0 stays where there is none.
+template <class Point, class Vector>
+Point gone(const Point& p, const Vector& way) {
+  return way == CGAL::NULL_VECTOR ? p : p + way;
 }
 
 } // namespace internal
@@ -127,8 +133,8 @@ void fill_brush_targets(const std::vector<typename Mesh::Vertex_index>& vertices
                         const Dab_3<Kernel>& dab, Target_map targets, const Mask_map& mask, bool inside_out = false) {
   const internal::Rounding_to_nearest rounding;
   internal::check_dab(dab);
-  internal::for_each_brush_target(vertices, mesh, dab, mask, inside_out,
-                                  [&](auto v, const auto& place) { put(targets, v, place); });
+  internal::for_each_brush_way(vertices, mesh, dab, mask, inside_out,
+                               [&](auto v, const auto& way) { put(targets, v, internal::gone(mesh.point(v), way)); });
 }
 
 } // namespace haptic_sculpt

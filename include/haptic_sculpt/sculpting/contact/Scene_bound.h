@@ -6,14 +6,11 @@
 namespace haptic_sculpt::internal {
 
 /// A bound of the coordinates of all vertices of a mesh under way: it grows with every move, and is taken anew where
-/// that matters.
+/// that matters. And whether clearances serve the scene that it bounds.
 template <class Mesh>
 class Scene_bound {
 public:
-  /// \param clearance has been checked already
-  Scene_bound(const Mesh& mesh, const std::optional<double>& clearance) : mesh_(&mesh), checked_(clearance) {
-    include(Scene_extent(mesh).largest);
-  }
+  explicit Scene_bound(const Mesh& mesh) : mesh_(&mesh) { include(Scene_extent(mesh).largest); }
 
   double largest_coordinate() const { return std::max(largest_, expected_); }
 
@@ -27,11 +24,14 @@ public:
   /// Vertices may be again where any has been.
   void include_the_past() { largest_ = largest_ever_; }
 
-  /// \throw Out_of_range; Invalid_parameter where the clearance does not serve the scene, or the scene has outgrown it.
-  void check_clearance_serves(const std::optional<double>& clearance) {
+  /// \param usual of what is given none of its own. It was checked when it was set: whatever is asked for since, and
+  /// however the scene changes, it is refused only where the scene outgrows it, so that a log that sets it is made
+  /// again \throw Out_of_range; Invalid_parameter where the clearance does not serve the scene, or the scene has
+  /// outgrown it.
+  void check_clearance_serves(const std::optional<double>& clearance, const std::optional<double>& usual) {
     if (!clearance)
       return;
-    if (clearance != checked_) {
+    if (clearance != usual && clearance != checked_) {
       check_length(clearance);
       check_clearance(*mesh_, clearance);
       checked_ = clearance;
@@ -49,7 +49,7 @@ public:
 
 private:
   const Mesh* mesh_;
-  std::optional<double> checked_; ///< a clearance that served the scene when it was first used
+  std::optional<double> checked_; ///< an unusual one that served the scene when it was first used
   double largest_ = 0;      ///< magnitude of a coordinate
   double largest_ever_ = 0; ///< the same, with those that vertices have had
   double expected_ = 0;     ///< the same, of a vertex that is not in the mesh yet

@@ -77,11 +77,14 @@ private:
 
   const void* points() const { return mesh_->num_vertices() != 0 ? mesh_->points().data() : nullptr; }
 
-  void reserve(const Elements& room) {
+  void reserve(Elements room) {
     using Size = typename Mesh::size_type;
     if (room.vertices > most || room.edges > most / 2 || room.faces > most)
       throw std::bad_alloc();
     const bool is_known = points() == points_;
+    if (is_known) // what was asked for before stays
+      room = {std::max(room.vertices, room_.vertices), std::max(room.edges, room_.edges),
+              std::max(room.faces, room_.faces)};
     try {
       mesh_->reserve(static_cast<Size>(room.vertices), static_cast<Size>(room.edges), static_cast<Size>(room.faces));
       corners_->reserve(room.faces);
@@ -98,6 +101,7 @@ private:
   }
 
   void reserve_insertions(std::size_t insertions) {
+    insertions = std::max(insertions, insertions_);
     broad_phase_->reserve(room_.faces, insertions);
     insertions_ = insertions;
   }

@@ -42,7 +42,7 @@ public:
       , question_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
       , probe_(mesh, broad_phase_, corners_, make_traits(counters_), watch_, counters_)
       , finder_(mesh, broad_phase_, corners_, counters_)
-      , scene_(mesh, parameters.drag.clearance_length)
+      , scene_(mesh)
       , shifting_(mesh, counters_)
       , inside_out_(mesh) {}
   Guarded_mesh(const Guarded_mesh&) = delete; // its parts refer to each other
@@ -65,6 +65,7 @@ public:
     return editor_;
   }
 
+  bool is_whole() const noexcept { return !writing_.is_under_way(); }
   /// \throw Unfinished_change if a change was broken off: every way in begins with this.
   void check_is_whole() const { writing_.check(); }
   /// The same of ways in that change anything. \throw Reentrant_call within a function of the caller's
@@ -102,7 +103,7 @@ public:
     check_may_change();
     check_point("the target", target);
     const Drag_parameters& drag = given ? *given : parameters.drag;
-    scene_.check_clearance_serves(drag.clearance_length);
+    check_serves(drag.clearance_length);
     hold(v, drag.is_once);
     editor_.make_room_for_move();
     const Coordinates s = vertex_coordinates(*mesh_, v), t = coordinates(target);
@@ -120,7 +121,7 @@ public:
   /// Whether the scene has outgrown the clearance of drags that are given none.
   bool has_outgrown_clearance() { return scene_.has_outgrown(parameters.drag.clearance_length); }
   /// \throw Invalid_parameter where that is so
-  void check_clearance_serves() { scene_.check_clearance_serves(parameters.drag.clearance_length); }
+  void check_clearance_serves() { check_serves(parameters.drag.clearance_length); }
 
   bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& given, double delta) {
     const Rounding_to_nearest rounding;
@@ -163,7 +164,7 @@ public:
     check_point("the place of the probe", p);
     look_at_surface();
     const std::optional<double>& clearance = parameters.drag.clearance_length;
-    scene_.check_clearance_serves(clearance);
+    check_serves(clearance);
     return probe_.refuse(coordinates(p), start, Clearance_rule(clearance), scene_.largest_coordinate());
   }
 
@@ -176,7 +177,7 @@ public:
     watch_.check_counts();
     hand_.tell_where_it_is();
     const Drag_parameters& drag = given ? *given : parameters.drag;
-    scene_.check_clearance_serves(drag.clearance_length);
+    check_serves(drag.clearance_length);
     return probe_.drag(coordinates(source), coordinates(target), path, drag, parameters.delta_length, changes());
   }
 
@@ -357,6 +358,10 @@ private:
     Guarded_mesh& mesh;
     ~Forget_at_end() { mesh.hand_.let_go(), mesh.probe_.let_go(), mesh.scene_.expect_none(); }
   };
+
+  void check_serves(const std::optional<double>& clearance) {
+    scene_.check_clearance_serves(clearance, parameters.drag.clearance_length);
+  }
 
   /// For questions about the surface: lets nobody go.
   void look_at_surface() {

@@ -67,8 +67,7 @@ public:
     for (const Edge_index e : mesh_->edges()) {
       if (!is_inside(e))
         continue;
-      const Vector n = normalized(normal(points, mesh_->halfedge(e))),
-                   m = normalized(normal(points, mesh_->opposite(mesh_->halfedge(e))));
+      const Vector n = normal(points, mesh_->halfedge(e)), m = normal(points, mesh_->opposite(mesh_->halfedge(e)));
       if (std::atan2(length(cross(n, m)), dot(n, m)) > largest)
         constrain(e, {true, true});
     }
@@ -166,7 +165,7 @@ private:
   }
   Vector normal(const Scaled_points<Mesh>& points, Halfedge_index h) const {
     const auto corners = corners_of_face(*mesh_, mesh_->face(h));
-    return area_normal(points(corners[0]), points(corners[1]), points(corners[2]));
+    return unit_normal(points(corners[0]), points(corners[1]), points(corners[2]));
   }
 };
 

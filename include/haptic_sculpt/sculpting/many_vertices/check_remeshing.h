@@ -5,7 +5,10 @@
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_state.h>
 #include <haptic_sculpt/sculpting/named_parameters.h>
 
+#include <cstdint>
 #include <limits>
+#include <string>
+#include <type_traits>
 
 namespace haptic_sculpt::internal {
 
@@ -72,8 +75,19 @@ void check_number_of_faces(const Mesh& mesh, const Scaled_points<Mesh>& points,
     return;
   // Where edges are longer than doubles can tell in the unit, their number is not a number.
   throw Invalid_parameter("the target edge length " + number(target_edge_length) + " is too short: it takes at least " +
-                          (std::isnan(least) ? "2^1000" : number(least)) + " faces in all, and " + number(most) +
+                          (std::isfinite(least) ? number(least) : "2^1000") + " faces in all, and " + number(most) +
                           " may be there: give a longer one, or allow for more faces");
+}
+
+/// A number of iterations or steps that a caller has given. \throw Invalid_parameter
+template <class Count>
+unsigned checked_count(const char* name, Count count) {
+  static_assert(std::is_integral<Count>::value, "isotropic_remeshing: numbers of iterations and steps are whole");
+  constexpr unsigned most = std::numeric_limits<unsigned>::max();
+  if (static_cast<std::uintmax_t>(count) > most) // negative ones, too
+    throw Invalid_parameter(std::string(name) + " must be from 0 to " + std::to_string(most) + ", not " +
+                            std::to_string(count));
+  return static_cast<unsigned>(count);
 }
 
 } // namespace haptic_sculpt::internal

@@ -6,6 +6,11 @@
 
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
+#include <CGAL/Gmpq.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace haptic_sculpt::internal {
@@ -13,6 +18,33 @@ namespace haptic_sculpt::internal {
 /// Its length is twice the area.
 inline Vector area_normal(const Vector& a, const Vector& b, const Vector& c) {
   return quick_cross(minus(b, a), minus(c, a));
+}
+
+/// Of length 1, right up to some roundings however thin the triangle is; 0 where that is degenerate, or too far out for
+/// its unit.
+inline Vector unit_normal(const Vector& a, const Vector& b, const Vector& c) {
+  constexpr double least_share = 0x1p-20;   // of the product of two edges: a thinner triangle's has lost too many bits
+  constexpr double least_length = 0x1p-900; // so has a shorter one, being subnormal
+  const Vector n = area_normal(a, b, c);
+  if (length(n) > least_length && length(n) > least_share * length(minus(b, a)) * length(minus(c, a)))
+    return normalized(n);
+  for (const Vector& p : {a, b, c})
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+      return {0, 0, 0};
+  using Number = CGAL::Gmpq;
+  std::array<Number, 3> u, v, exact;
+  for (std::size_t i = 0; i < 3; ++i)
+    u[i] = Number(b[i]) - Number(a[i]), v[i] = Number(c[i]) - Number(a[i]);
+  Number largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    exact[i] = u[j] * v[k] - u[k] * v[j];
+    largest = std::max(largest, CGAL::abs(exact[i]));
+  }
+  if (largest == 0)
+    return {0, 0, 0};
+  const auto rounded = [&](const Number& x) { return CGAL::to_double(Number(x / largest)); };
+  return normalized({rounded(exact[0]), rounded(exact[1]), rounded(exact[2])});
 }
 
 /// The square of the sine of the least angle: 0 for a degenerate triangle, at most 3/4.

@@ -18,8 +18,6 @@ enum class Walk_end : std::uint8_t {
 /// A vertex under way, with its contacts: goes in legs, each proven free, to the point nearest to the target that the
 /// contacts permit; finds contacts on the way and loses others (doc/proofs/slide.md). Plain data: copied to try a way
 /// out.
-///
-/// \tparam Guard decides motions exactly: Guarded_star
 template <class Mesh>
 class Slide_walk : public Slide_contacts<Mesh> {
   using Base = Slide_contacts<Mesh>;

@@ -4,7 +4,6 @@
 #include <haptic_sculpt/Part_runner.h>
 #include <haptic_sculpt/surface/broad_phase/Eight_flags.h>
 #include <haptic_sculpt/surface/broad_phase/outward_float.h>
-#include <haptic_sculpt/surface/broad_phase/processor.h>
 
 #include <vector>
 

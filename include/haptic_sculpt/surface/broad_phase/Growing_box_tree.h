@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/surface/broad_phase/nearest_first.h>
+#include <haptic_sculpt/surface/broad_phase/processor.h>
 #include <haptic_sculpt/surface/make_room.h>
 
 #include <algorithm>
@@ -19,8 +20,6 @@ namespace haptic_sculpt::internal {
 class Growing_box_tree {
 public:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
-
-  bool is_empty() const { return root_ == none; }
 
   /// Puts an item near others. `put(item, place)` is called for it and for every item that changes its place.
   template <class Put>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/surface/broad_phase/nearest_first.h>
+#include <haptic_sculpt/surface/broad_phase/processor.h>
 
 #include <algorithm>
 #include <array>

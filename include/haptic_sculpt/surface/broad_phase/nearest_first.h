@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Box_node.h>
+#include <haptic_sculpt/surface/broad_phase/processor.h>
 
 #include <utility>
 #include <vector>

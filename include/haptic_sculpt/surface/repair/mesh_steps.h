@@ -3,7 +3,6 @@
 
 #include <haptic_sculpt/surface/divide_polygon.h>
 #include <haptic_sculpt/surface/repair/Hole_kernel.h>
-#include <haptic_sculpt/surface/repair/Repair_parameters.h>
 #include <haptic_sculpt/surface/repair/Trail.h>
 #include <haptic_sculpt/surface/repair/Work_mesh.h>
 #include <haptic_sculpt/surface/repair/soup_steps.h>
