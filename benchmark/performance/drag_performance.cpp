@@ -93,7 +93,9 @@ int main(int argument_count, char** arguments) {
   std::size_t largest_peer = 1000000;
   bool quick = false;
   app.add_option("--seed", effort.seed, "of the random vertices and directions");
-  app.add_option("--sizes", sizes, "numbers of triangles")->delimiter(',');
+  app.add_option("--sizes", sizes, "numbers of triangles")
+      ->delimiter(',')
+      ->check(CLI::Range(std::size_t{100}, std::size_t{1} << 30));
   app.add_option("--valences", valences, "of the apex of a fan; none below 3")->delimiter(',');
   app.add_option("--drags", effort.drags, "timed operations a workload")->check(positive_number);
   app.add_option("--peer-drags", effort.peer_drags, "the same, at most, for other structures")->check(positive_number);

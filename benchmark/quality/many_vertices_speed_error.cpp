@@ -311,9 +311,9 @@ int main(int argc, char** argv) {
       mesh = read_given([&] { return read_surface<Mesh>(given); });
     Json rows = Json::array();
     std::size_t asked = 0, broken = 0;
-    for (int round = 0; round < rounds; ++round)
-      for (const Motion& m : given.empty() ? motions(level, seed * 1000003 + static_cast<std::uint64_t>(round))
-                                           : motions_of(mesh, seed + static_cast<std::uint64_t>(round))) {
+    for (int round = 0; round < rounds; ++round) {
+      const std::uint64_t own_seed = seed * 1000003 + static_cast<std::uint64_t>(round);
+      for (const Motion& m : given.empty() ? motions(level, own_seed) : motions_of(mesh, own_seed)) {
         const std::size_t unit = program.shard.next_unit(), before = rows.size();
         if (!program.shard.takes_next())
           continue;
@@ -325,6 +325,7 @@ int main(int argc, char** argv) {
             ++asked, broken += !rows[k]["valid"].get<bool>();
         }
       }
+    }
     promises.add(not_embedded, "a mesh moved under the guard is embedded", asked, broken);
     return {{"seed", seed}, {"level", level}, {"rows", rows}};
   });

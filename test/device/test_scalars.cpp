@@ -2,6 +2,8 @@
 // A file of its own: together with the kinematics it takes the compiler more than 4 GiB under the sanitizers.
 #include "Mpfr_scalar.h"
 #include "populations.h"
+#include <seeds_and_sizes.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <unsupported/Eigen/AutoDiff>
@@ -60,6 +62,40 @@ BOOST_AUTO_TEST_CASE(derivatives_by_automatic_differentiation_are_the_jacobian) 
     }
     BOOST_TEST(used > 100);
   }
+}
+
+// Long links that fold back on the base have elbows that are near each other and far out: what they are rounded to
+// counts.
+BOOST_AUTO_TEST_CASE(the_closure_knows_how_far_the_elbows_are_rounded) {
+  Random random(haptic_sculpt::test::seed_from_environment(71));
+  double worst = 0, worst_without = 0; // of what is allowed
+  for (int k = 0; k < 20000; ++k) {
+    Device_description<double> d = random_design(random, Device_form::general);
+    d.secondary_length = 1, d.platform_radius = uniform(random, 0.1, 1);
+    d.primary_length = std::ldexp(uniform(random, 1, 2), k % 20);
+    d.base_radius = d.primary_length + uniform(random, -0.9, 0.9);
+    const double spread = k % 2 == 0 ? 3 : 4 / d.primary_length; // rad; folded back
+    const Device_vector<double> theta =
+        (k % 2 == 0 ? Device_vector<double>::Zero() : Device_vector<double>::Constant(EIGEN_PI)) +
+        random_vector(random, spread);
+    Device_pose<double> pose;
+    Device_pose<long double> fine;
+    const Device_parameters<double> parameters(d);
+    const Device_parameters<long double> as_fine(description_as<long double>(d));
+    internal::place_elbows(parameters, theta, pose);
+    internal::place_elbows(as_fine, vector_as<long double>(theta), fine);
+    const internal::Platform_closure<double> closure(parameters, pose.elbows);
+    const internal::Platform_closure<long double> exact(as_fine, fine.elbows);
+    for (int i = 0; i < 3; ++i) {
+      const double off = static_cast<double>(std::abs(closure.separation_squared[i] - exact.separation_squared[i]));
+      worst = std::fmax(worst, off / closure.residual_rounding());
+      worst_without =
+          std::fmax(worst_without, off / (closure.residual_rounding() -
+                                          std::numeric_limits<double>::epsilon() * closure.rounding_of_elbows));
+    }
+  }
+  BOOST_TEST(worst <= 1);
+  BOOST_TEST(worst_without > 2); // else nothing was tried
 }
 
 BOOST_AUTO_TEST_SUITE_END()

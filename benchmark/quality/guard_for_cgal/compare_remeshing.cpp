@@ -59,9 +59,10 @@ Json move_all_by_a_tenth(Mesh mesh, unsigned seed) {
   for (const Vertex_index v : mesh.vertices()) {
     const double edge = std::sqrt(CGAL::squared_distance(mesh.point(v), mesh.point(mesh.source(mesh.halfedge(v)))));
     Vector_3 d;
-    do
-      d = Vector_3(uniform(), uniform(), uniform());
-    while (d.squared_length() > 1 || d.squared_length() < 0.01);
+    do {
+      const double x = uniform(), y = uniform(), z = uniform(); // in this order, whatever the compiler
+      d = Vector_3(x, y, z);
+    } while (d.squared_length() > 1 || d.squared_length() < 0.01);
     targets[v] = mesh.point(v) + 0.1 * edge / std::sqrt(d.squared_length()) * d;
   }
   auto start = std::clock();

@@ -87,7 +87,8 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "Of generated meshes, perturbations and directions")->capture_default_str();
   app.add_option("--only", options.only, "Only functions whose names have this in them");
   app.add_option("--drags-a-vertex", options.drags_a_vertex,
-                 "At most, where results are targets; rows that ended so are marked");
+                 "At most, where results are targets; rows that ended so are marked")
+      ->check(CLI::Range(0.0, 1e9));
   app.add_flag("--no-generated", options.no_generated, "Leave out the generated meshes");
   app.add_flag("--no-functions", options.no_functions, "Leave out the functions that move points");
   app.add_flag("--no-remeshing", options.no_remeshing, "Leave out remeshing");

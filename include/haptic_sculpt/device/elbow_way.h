@@ -10,12 +10,16 @@ namespace haptic_sculpt::internal {
 
 /// Whether the elbows, from where they are, are certain not to come on one line while no joint turns by more than
 /// `turned` rad: each moves by at most l1 times that, which changes the normal of their triangle by less than its
-/// length. Sufficient, not necessary: shorter steps decide more.
+/// length, rounding taken off. Sufficient, not necessary: shorter steps decide more.
 template <class S>
 bool elbows_stay_off_a_line(const Device_parameters<S>& parameters, const Device_matrix<S>& elbows, const S& turned) {
   const Device_vector<S> a = elbows.col(1) - elbows.col(0), b = elbows.col(2) - elbows.col(0);
   const S moved = S(2) * parameters.primary_length() * turned; // one end of a side, as seen from the other
-  return moved * (a.norm() + b.norm() + moved) < a.cross(b).norm();
+  // Elbows are off by 5 u (R + l1), u half of epsilon: the normal by 22 u (R + l1) (|a| + |b|), and its own 5 u |a|
+  // |b|.
+  const S sides = a.norm() + b.norm(), rounding = S(16) * std::numeric_limits<S>::epsilon() *
+                                                  (parameters.base_radius() + parameters.primary_length()) * sides;
+  return moved * (sides + moved) < a.cross(b).norm() - rounding;
 }
 
 /// How far the three |B_i - B_j|^2 / l2^2 stray, at most, from the straight line between their values at both ends of

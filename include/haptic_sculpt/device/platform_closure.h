@@ -83,6 +83,7 @@ template <class S> S mode_separation() {
 template <class S> struct Platform_closure {
   S linear, constant;                  ///< a, b
   Device_vector<S> separation_squared; ///< |B_i - B_j|^2 / l2^2 of the pair opposite leg k
+  S rounding_of_elbows;                ///< epsilons that the rounding of the elbows makes of a separation_squared
 
   Platform_closure(const Device_parameters<S>& parameters, const Device_matrix<S>& elbows)
       : linear(parameters.closure_linear()), constant(parameters.closure_constant()) {
@@ -90,6 +91,12 @@ template <class S> struct Platform_closure {
     separation_squared[0] = (elbows.col(1) - elbows.col(2)).squaredNorm() * scale;
     separation_squared[1] = (elbows.col(2) - elbows.col(0)).squaredNorm() * scale;
     separation_squared[2] = (elbows.col(0) - elbows.col(1)).squaredNorm() * scale;
+    // A coordinate of an elbow is off by some roundings of R + l1, five of epsilon at most for an elbow, and a square
+    // by twice its root times that of two elbows.
+    using std::sqrt;
+    rounding_of_elbows = S(20) * sqrt(largest_magnitude(separation_squared)) *
+                         (parameters.base_radius() + parameters.primary_length()) *
+                         parameters.inverse_secondary_length();
   }
 
   template <class T>
@@ -97,7 +104,8 @@ template <class S> struct Platform_closure {
       : linear(other.linear)
       , constant(other.constant)
       , separation_squared(S(other.separation_squared[0]), S(other.separation_squared[1]),
-                           S(other.separation_squared[2])) {}
+                           S(other.separation_squared[2]))
+      , rounding_of_elbows(S(other.rounding_of_elbows)) {}
 
   Device_vector<S> residual(const Link_angles<S>& x) const {
     Device_vector<S> f;
@@ -146,10 +154,10 @@ template <class S> struct Platform_closure {
   /// A bound of the second derivative, as a map from steps to residuals in the largest-magnitude norm.
   S curvature_bound() const { return S(2) * linear + S(8); }
   /// What rounding can make of a residual, in units of l2^2: 16 roundings of the sum of its terms, for the five
-  /// operations that make it, and what cosines and sines are off the unit circle.
+  /// operations that make it, and what cosines and sines are off the unit circle; and the elbows'.
   S residual_rounding() const {
-    return S(16) * std::numeric_limits<S>::epsilon() *
-           (constant + S(2) * linear + S(3) + largest_magnitude(separation_squared));
+    return std::numeric_limits<S>::epsilon() *
+           (S(16) * (constant + S(2) * linear + S(3) + largest_magnitude(separation_squared)) + rounding_of_elbows);
   }
 };
 

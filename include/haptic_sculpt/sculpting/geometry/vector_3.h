@@ -4,8 +4,8 @@
 /// \file
 /// The little vector arithmetic behind stops and slides. Nothing here decides about geometry: it only proposes points.
 ///
-/// Every product-sum of what follows is an explicit fused multiply-add, so that compilers cannot choose: the same edits
-/// give the same bits in every build.
+/// Every product-sum of what follows, up to the quick ones, is an explicit fused multiply-add, so that compilers cannot
+/// choose: the same drags give the same bits in every build.
 
 #include <haptic_sculpt/collision/arithmetic/unit_of.h>
 
@@ -24,6 +24,11 @@ inline Vector scaled(const Vector& a, double factor) { return {a[0] * factor, a[
 /// a + factor * b, each coordinate rounded once.
 inline Vector advanced(const Vector& a, double factor, const Vector& b) {
   return {std::fma(factor, b[0], a[0]), std::fma(factor, b[1], a[1]), std::fma(factor, b[2], a[2])};
+}
+
+/// s * a + t * b
+inline Vector combined(double s, const Vector& a, double t, const Vector& b) {
+  return advanced(scaled(b, t), s, a);
 }
 
 inline double dot(const Vector& a, const Vector& b) {

@@ -37,7 +37,9 @@ public:
 
 private:
   struct Comes_later {
-    bool operator()(const Entry& a, const Entry& b) const { return a.length < b.length; }
+    bool operator()(const Entry& a, const Entry& b) const {
+      return a.length != b.length ? a.length < b.length : b.edge < a.edge; // not as the standard library would have it
+    }
   };
 
   const Mesh* mesh_;

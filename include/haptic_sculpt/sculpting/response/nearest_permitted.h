@@ -80,12 +80,10 @@ inline Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spac
       if (std::fma(-cosine, missing_b, missing_a) < 0 || std::fma(-cosine, missing_a, missing_b) < 0)
         continue;
       // The point of the common line nearest to 0, and the way along the line.
-      Vector d =
-          scaled(plus(scaled(cross(b.normal, axis), a.least), scaled(cross(axis, a.normal), b.least)), 1 / square);
+      const Vector along_a = cross(b.normal, axis), along_b = cross(axis, a.normal);
+      Vector d = scaled(combined(a.least, along_a, b.least, along_b), 1 / square);
       d = advanced(d, dot(axis, wanted) / square, axis);
-      d = advanced(d, 1 / square,
-                   plus(scaled(cross(b.normal, axis), a.least - dot(a.normal, d)),
-                        scaled(cross(axis, a.normal), b.least - dot(b.normal, d))));
+      d = advanced(d, 1 / square, combined(a.least - dot(a.normal, d), along_a, b.least - dot(b.normal, d), along_b));
       if (accept(d, {i, j}, 2))
         return result;
     }
@@ -97,10 +95,12 @@ inline Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spac
         const double volume = dot(ab, c.normal);
         if (std::abs(volume) < least_independence)
           continue;
-        Vector d = scaled(plus(plus(scaled(bc, a.least), scaled(ca, b.least)), scaled(ab, c.least)), 1 / volume);
+        const auto corner = [&](double of_a, double of_b, double of_c) {
+          return advanced(combined(of_a, bc, of_b, ca), of_c, ab);
+        };
+        Vector d = scaled(corner(a.least, b.least, c.least), 1 / volume);
         d = advanced(d, 1 / volume,
-                     plus(plus(scaled(bc, a.least - dot(a.normal, d)), scaled(ca, b.least - dot(b.normal, d))),
-                          scaled(ab, c.least - dot(c.normal, d))));
+                     corner(a.least - dot(a.normal, d), b.least - dot(b.normal, d), c.least - dot(c.normal, d)));
         const Vector push = minus(d, wanted);
         if (dot(push, bc) / volume < 0 || dot(push, ca) / volume < 0 || dot(push, ab) / volume < 0)
           continue;
