@@ -93,6 +93,7 @@ public:
       return false;
     const double error = error_ * (far / reach_);
     if (shared == 0) {
+      // Two heights of twelve roundings each, and limits of three: 27 of 2^-53 of this product; these are 1024.
       const double slack = 0x1p-43 * quick_magnitude(along_) * far;
       const double a = quick_dot(along_, p[0]), b = quick_dot(along_, p[1]), c = quick_dot(along_, p[2]);
       if (smaller(a, smaller(b, c)) > highest_ + slack || larger(a, larger(b, c)) < lowest_ - slack)

@@ -68,6 +68,7 @@ public:
         size[j] += std::abs(a) > std::abs(b) ? std::abs(a) : std::abs(b); // grows with the box
       }
     for (int j = 0; j < 8; ++j) {
+      // A difference, a product, two sums and what follows here: five roundings of 2^-24; these are 64.
       const float error = 0x1p-18f * size[j] + least_error;
       least[j] -= error, most[j] += error;
     }
