@@ -38,7 +38,8 @@ def findings(part, reports, answers):
         if name in reports and any(key not in ("shard", "did_not_fit") for key in reports[name]):
             try:
                 found += chart(reports[name])
-            except (ArithmeticError, LookupError, StopIteration, ValueError): # a part, the row sought, or all rows are missing
+            except (ArithmeticError, LookupError, StopIteration, ValueError):
+                # a part, the row sought, or all rows are missing
                 if not reports[name].get("did_not_fit"):
                     raise
     if part == "quality" and answers:

@@ -50,14 +50,20 @@ def asked_twice(name, sentence, caption, held="all agree", broken="some differ")
     def chart(report):
         promise = report["promises"][0]
         asked = f"{promise['asked']:,}"
-        return [of_promises(name, report, sentence.format(n=asked, how=broken if promise["broken"] else held), asked, caption, [])]
+        how = broken if promise["broken"] else held
+        return [of_promises(name, report, sentence.format(n=asked, how=how), asked, caption, [])]
     return chart
 
 
 CHARTS = {"drags_and_edits": drags_and_edits, "broad_phases": drags_and_edits, "drags_with_stop": drags_and_edits, "drags_with_paper": drags_and_edits, "drags_of_a_hand": drags_and_edits, "drags_of_a_hand_with_stop": drags_and_edits,
           "ends": ends,
-          "sweeps_by_oracle": asked_twice("sweeps_by_oracle", "{n} sweeps were asked of a second, exact implementation; {how}.", "sweeps asked twice"),
-          "sweeps_by_cgal": asked_twice("sweeps_by_cgal", "{n} sweeps were asked of CGAL's predicates; {how}.", "sweeps asked twice"),
-          "drags_by_oracle": asked_twice("drags_by_oracle", "{n} drags were decided once more, in integers over all pairs of faces; {how}.", "drags decided twice"),
-          "axis_moves_by_oracle": asked_twice("axis_moves_by_oracle", "Of {n} axis moves the free ones were looked at on the way, exactly; {how}.", "axis moves tried",
-                                              "all are embedded", "some are not")}
+          "sweeps_by_oracle": asked_twice("sweeps_by_oracle", "{n} sweeps were asked of a second, exact implementation; {how}.",
+                                          "sweeps asked twice"),
+          "sweeps_by_cgal": asked_twice("sweeps_by_cgal", "{n} sweeps were asked of CGAL's predicates; {how}.",
+                                        "sweeps asked twice"),
+          "drags_by_oracle": asked_twice("drags_by_oracle",
+                                         "{n} drags were decided once more, in integers over all pairs of faces; {how}.",
+                                         "drags decided twice"),
+          "axis_moves_by_oracle": asked_twice("axis_moves_by_oracle",
+                                              "Of {n} axis moves the free ones were looked at on the way, exactly; {how}.",
+                                              "axis moves tried", "all are embedded", "some are not")}

@@ -15,11 +15,12 @@ template <class S>
 bool elbows_stay_off_a_line(const Device_parameters<S>& parameters, const Device_matrix<S>& elbows, const S& turned) {
   const Device_vector<S> a = elbows.col(1) - elbows.col(0), b = elbows.col(2) - elbows.col(0);
   const S moved = S(2) * parameters.primary_length() * turned; // one end of a side, as seen from the other
-  // Elbows are off by 5 u (R + l1), u half of epsilon: the normal by 22 u (R + l1) (|a| + |b|), and its own 5 u |a|
-  // |b|.
-  const S sides = a.norm() + b.norm(), rounding = S(16) * std::numeric_limits<S>::epsilon() *
-                                                  (parameters.base_radius() + parameters.primary_length()) * sides;
-  return moved * (sides + moved) < a.cross(b).norm() - rounding;
+  const S sides = a.norm() + b.norm();
+  // m^2: a coordinate of an elbow is off by 5 roundings of R + l1, half of epsilon each: the normal by 22 of these
+  // times the sides, and by 5 of the product of the sides, which is no more: 27 halves, and room.
+  const S rounding_of_normal =
+      S(16) * std::numeric_limits<S>::epsilon() * (parameters.base_radius() + parameters.primary_length()) * sides;
+  return moved * (sides + moved) < a.cross(b).norm() - rounding_of_normal;
 }
 
 /// How far the three |B_i - B_j|^2 / l2^2 stray, at most, from the straight line between their values at both ends of

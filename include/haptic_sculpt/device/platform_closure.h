@@ -156,8 +156,9 @@ template <class S> struct Platform_closure {
   /// What rounding can make of a residual, in units of l2^2: 16 roundings of the sum of its terms, for the five
   /// operations that make it, and what cosines and sines are off the unit circle; and the elbows'.
   S residual_rounding() const {
-    return std::numeric_limits<S>::epsilon() *
-           (S(16) * (constant + S(2) * linear + S(3) + largest_magnitude(separation_squared)) + rounding_of_elbows);
+    const S terms = constant + S(2) * linear + S(3) + largest_magnitude(separation_squared),
+            rounding_of_terms = S(16) * terms; // epsilons, as those of the elbows
+    return std::numeric_limits<S>::epsilon() * (rounding_of_terms + rounding_of_elbows);
   }
 };
 

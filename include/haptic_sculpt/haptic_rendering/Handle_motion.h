@@ -20,8 +20,7 @@ public:
   /// The same where the tick has truly taken so long. \param elapsed s, > 0; does not count at the first angles
   double follow(const Eigen::Vector3d& theta, double elapsed) {
     auto pose = forward_kinematics(parameters_, theta, pose_);
-    if (!pose &&
-        is_first_) // nobody has read on which way the hand has come since restart(); else it has to be led back
+    if (!pose && is_first_)
       pose = forward_kinematics(parameters_, theta, start_);
     if (!pose)
       return std::numeric_limits<double>::infinity();

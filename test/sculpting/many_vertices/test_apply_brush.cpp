@@ -140,22 +140,6 @@ BOOST_AUTO_TEST_CASE(a_dab_goes_where_its_formula_says_and_no_farther_from_there
   BOOST_TEST(is_enough(held, 0));
 }
 
-// Ways are added up, not places, which are rounded.
-BOOST_AUTO_TEST_CASE(a_dab_and_its_opposite_leave_all_where_it_is) {
-  std::mt19937_64 random(seed_from_environment(38));
-  std::uniform_real_distribution<double> number(0, 1);
-  for (int n = 0; n < 50; ++n) {
-    Mesh mesh = meshes::to_mesh(meshes::box(4).scale_and_move(1, number(random), number(random), number(random)));
-    Sculptor<Mesh> sculptor(mesh);
-    const Mesh_snapshot before = snapshot(sculptor);
-    const Point_3 centre = mesh.point(Vertex_index(static_cast<unsigned>(random() % mesh.number_of_vertices())));
-    const Dab dab{Brush_kind::grab, centre, 0.6, std::ldexp(number(random), n % 5 == 0 ? 40 : -3), Vector_3(1, 0, 0)};
-    const Dab opposite = mirrored(dab, meshes::Kernel::Plane_3(centre, Vector_3(1, 0, 0)));
-    BOOST_TEST(apply_brush(sculptor, Dabs{dab, opposite}).asked > 5u);
-    BOOST_TEST((snapshot(sculptor) == before));
-  }
-}
-
 BOOST_AUTO_TEST_CASE(both_sides_of_a_plane_go_alike_and_several_dabs_add_up) {
   // Symmetric about x = 0: a torus of an even number of segments.
   const Mesh start = meshes::to_mesh(meshes::torus(48, 16));
