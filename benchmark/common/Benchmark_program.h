@@ -6,6 +6,7 @@
 
 #include "../../examples/common/json_words.h"
 #include "../../examples/common/numbers.h"
+#include "../../examples/common/output_targets.h"
 #include "../../examples/common/parse_arguments.h"
 #include "../../examples/common/process_state.h"
 
@@ -152,7 +153,10 @@ private:
         if (option->get_type_name().compare(0, 5, "FLOAT") == 0 && !std::isfinite(std::strtod(value.c_str(), nullptr)))
           throw CLI::ValidationError(option->get_name(), "a finite number is expected, not " + value);
   }
+  /// \throw Wrong_use, Write_error
   void check_file() const {
+    if (const char* const stream = file_.empty() ? nullptr : examples::standard_stream_at(file_); stream != nullptr)
+      throw Wrong_use("'" + file_ + "' (--json) is the file of standard " + stream + "; give --json another name");
     if (const std::string why = file_.empty() ? "" : why_not_replaceable(follow_links(file_)); !why.empty())
       throw Write_error("cannot write '" + file_ + "': " + why);
   }

@@ -139,9 +139,10 @@ private:
 
   void read_version(std::string_view line) {
     checksum_ = Sha256().digest(); // of nothing
-    const std::string_view payload = check(line);
-    if (payload.substr(version_word.size()) != current_version)
-      throw Foreign_log("'" + name_ + "' is a log of format " + printable(payload.substr(version_word.size())) +
+    const std::string_view payload = check(line); // the blank that ends the word may begin the checksum
+    const std::string_view version = payload.substr(std::min(payload.size(), version_word.size()));
+    if (version != current_version)
+      throw Foreign_log("'" + name_ + "' is a log of format '" + printable(version) + "'" +
                         ", which this program is too old for");
   }
 

@@ -91,7 +91,8 @@ void print_summary(std::ostream& out, const Run_result& r, const Settings& setti
                         : "NOT VALID")
       << '\n';
   for (const auto& [time, what] : r.faults)
-    out << "fault at " << time << " s: " << what << "; the force has been taken back\n";
+    out << "fault at " << time << " s: " << what
+        << (what == std::string("torn") ? "; the run has ended\n" : "; the force has been taken back\n");
 }
 
 } // namespace haptic_sculpt::loop_program

@@ -174,8 +174,8 @@ private:
         log_->let_catch_up(session_->ticks());
       if (faults_.is_log() && faults_.is_due(device.time()))
         log_->stall();
-      if (faults_.is_stall() && faults_.is_due(device.time()) && !faults_.has_begun())
-        stall(device, last);
+      if (faults_.is_stall() && faults_.is_due(device.time()) && !faults_.has_begun() && !stall(device, last))
+        break;
       Joint_reading reading = device.read();
       reading.elapsed += std::exchange(stalled_, 0.0);
       if (!faults_.is_stall() && faults_.is_due(device.time()))
@@ -183,29 +183,37 @@ private:
       if (!tick(loop, reading, device.time()))
         break;
       last = *tick_made_;
-      const Device_status moved = device.write(last.rendered.torque, last.rendered.interaction_torque);
-      if (moved != Device_status::success) {
-        writer_.note("at " + std::to_string(device.time()) + " s the mechanism has been torn (" + name_of(moved) +
-                     "); give the hand a path within the workspace and a stiffness that its masses can follow, and a "
-                     "device with friction a higher --rate");
-        result_.faults.emplace_back(device.time(), "torn");
+      if (!is_moved(device, last.rendered.torque, last.rendered.interaction_torque))
         break;
-      }
     }
     result_.has_true_energy = true;
     result_.port = device.port(), result_.dissipated = device.dissipated();
   }
 
-  /// Nobody comes for 50 ms. The device lets go by itself after 20.
-  void stall(Simulated_device& device, const Haptic_tick& last) {
+  /// \return whether the mechanism is whole
+  bool is_moved(Simulated_device& device, const Eigen::Vector3d& torque, const Eigen::Vector3d& interaction_torque) {
+    const Device_status moved = device.write(torque, interaction_torque);
+    if (moved == Device_status::success)
+      return true;
+    writer_.note("at " + std::to_string(device.time()) + " s the mechanism has been torn (" + name_of(moved) +
+                 "); give the hand a path within the workspace and a stiffness that its masses can follow, and a "
+                 "device with friction a higher --rate");
+    result_.faults.emplace_back(device.time(), "torn");
+    return false;
+  }
+
+  /// Nobody comes for 50 ms. The device lets go by itself after 20. \return whether the mechanism is whole
+  bool stall(Simulated_device& device, const Haptic_tick& last) {
     faults_.begin();
     const double begin = device.time();
     const Eigen::Vector3d none = Eigen::Vector3d::Zero();
     while (device.time() < begin + 0.05) {
       const bool holds = device.time() < begin + 0.02;
-      device.write(holds ? last.rendered.torque : none, holds ? last.rendered.interaction_torque : none);
+      if (!is_moved(device, holds ? last.rendered.torque : none, holds ? last.rendered.interaction_torque : none))
+        return false;
     }
     stalled_ = device.time() - begin;
+    return true;
   }
 
   double stalled_ = 0;

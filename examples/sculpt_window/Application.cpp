@@ -28,8 +28,8 @@ void Application::open_first(int width, int height) {
 }
 
 void Application::enter(Opened opened) {
-  const auto leave_it = [&](Model*) { destroy_unseen(opened); };
-  std::unique_ptr<Model, decltype(leave_it)> unseen(opened.model, leave_it); // where it cannot be shown
+  const auto leave_it = [this](Opened* it) { destroy_unseen(std::move(*it)); };
+  std::unique_ptr<Opened, decltype(leave_it)> unseen(&opened, leave_it); // where it cannot be shown
   view_.show(opened.faces, opened.middle, view_size_[0], view_size_[1]);
   frame();
   const double extent = view_.camera().unscaled(2.0);
@@ -49,8 +49,10 @@ void Application::enter(Opened opened) {
     options_.out = Options::sculpted_beside(path_);
   kept_.push_back({log_, opened.resumed});
   ++scene_;
+  pivot_.setZero();
   has_failed_to_draw_ = false;
-  thread_.enter(unseen.release());
+  unseen.release();
+  thread_.enter(std::move(opened.model));
   if (!choices_.slides)
     thread_.choose_response(false);
   frames_due_ = 3;
@@ -132,8 +134,8 @@ void Application::on_press(int button, bool shift, bool ctrl, bool alt) {
       brush.strength = -brush.strength;
     thread_.press(pointer_here(), choices_.tool, brush);
     pivot_.setZero(); // of turning, where it is beside the mesh
-  } else if (status_.pointed.size > 0) {
-    pivot_ = view_.camera().scaled(vector(status_.pointed.at));
+  } else if (const Pointed& pointed = thread_.pointed(); pointed.size > 0) {
+    pivot_ = view_.camera().scaled(vector(pointed.at));
   }
 }
 
@@ -203,15 +205,15 @@ void Application::leave(Model* model) {
 }
 
 /// Its log stays where there was something in it.
-void Application::destroy_unseen(const Opened& opened) {
-  destroy(opened.model, opened.resumed > 0 || (!options_.log.empty() && opened.log == options_.log));
+void Application::destroy_unseen(Opened opened) {
+  destroy(opened.model.release(), opened.resumed > 0 || (!options_.log.empty() && opened.log == options_.log));
 }
 
 /// What has been opened when the window ends.
 void Application::leave_unseen() {
   try {
-    if (const auto opened = background_.take_opened())
-      destroy_unseen(*opened);
+    if (auto opened = background_.take_opened())
+      destroy_unseen(std::move(*opened));
   } catch (const std::exception&) { // nobody waits for it any more
   }
 }
@@ -262,7 +264,7 @@ void Application::take_reports() {
     if (auto opened = is_at_work ? std::nullopt : background_.take_opened()) { // else edits are yet to be counted
       const std::string path = opened->path;
       if (is_unsaved() && edits() != edits_when_opening_) {
-        destroy_unseen(*opened);
+        destroy_unseen(std::move(*opened));
         next_open_ = {path, edits()};
         note_file("open", path);
         fail_to_open("'" + path +
@@ -314,7 +316,7 @@ void Application::step() {
     frames_due_ = std::max(frames_due_, 2);
   if (status_.waits_for_disk && !before.waits_for_disk)
     say("the disk is behind with the log: the hand waits for it");
-  if (status_.log_has_failed && !before.log_has_failed)
+  if (status_.log_has_failed && !(before.log_has_failed && before.scene == status_.scene))
     say("what is done from here on is not in the log, which cannot be written: save the mesh");
   take_reports();
   if (!to_open_.empty() && is_at_rest())

@@ -166,7 +166,7 @@ private:
   void take_answers();
   void refuse(const std::string& text);
   void leave(Model* model);
-  void destroy_unseen(const Opened& opened);
+  void destroy_unseen(Opened opened);
   void leave_unseen();
   void save(const std::string& path, bool quits = false);
   void ask_for_copy(Background::Saved saved);

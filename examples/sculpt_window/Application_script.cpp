@@ -93,6 +93,8 @@ bool Application::act(const Action& action) {
     if (is_misplaced_)
       return true;
     const auto has = [&](const char* word) { return action.word.find(word) != std::string::npos; };
+    if (has("right") && !thread_.is_idle()) // it turns about what the mouse points at
+      return false;
     on_press(has("right") ? 1 : has("middle") ? 2 : 0, has("shift"), has("ctrl"), has("alt"));
     return true;
   }
@@ -220,6 +222,7 @@ void Application::print_status() const {
                {"redo", s.redo_steps},
                {"edits", s.edits},
                {"refused", last_refusal_},
+               {"said", messages_.empty() ? "" : messages_.back().second},
                {"uploaded_bytes", view_.uploaded_bytes()},
                {"uploaded_faces", view_.uploaded_faces()}};
   if (s.hold == Status::Hold::vertex)

@@ -4,6 +4,7 @@
 #include "Options.h"
 #include "Tasks.h"
 
+#include "../common/told_loss.h"
 #include "../common/write_file.h"
 
 #include <chrono>
@@ -101,7 +102,7 @@ Opened open(const std::string& path, const std::string& log) {
   for (std::uint32_t f = 0; f < model->mesh.num_faces(); ++f)
     opened.faces.push_back(model->face(f));
   model->sculptor.visitor().changed.clear();
-  opened.model = model.release();
+  opened.model.reset(model.release());
   return opened;
 }
 
@@ -120,11 +121,15 @@ std::string destroy(Model* model, bool keeps_log) {
   return failure;
 }
 
+void Destroy_with_log::operator()(Model* model) const {
+  destroy(model, true);
+}
+
 std::string write_copy(const Save& saved, const std::string& path) {
   const Mesh mesh = saved.mesh();
   std::string lost = examples::write_mesh(path, mesh);
-  for (const std::string& word : attributes_not_held(mesh, *mesh_file_format(path)))
-    lost += (lost.empty() ? "" : "; ") + std::string("it cannot hold ") + word;
+  if (const std::string loss = examples::told_loss(saved.opened, path, mesh, saved.left_out); !loss.empty())
+    lost += (lost.empty() ? "" : "; ") + loss;
   return lost;
 }
 

@@ -18,14 +18,15 @@ double mean_edge_length(const Mesh& mesh) {
 
 } // namespace
 
-Model::Model(const examples::Mesh_file& file, const std::string& log_given)
+Model::Model(const examples::Mesh_file& file, const std::string& log_given, std::vector<std::string> found)
     : Loop_scene<Mesh>(
-          file.surface<Mesh>(),
+          file.surface<Mesh>(&found),
           [](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
             return Mouse::map_for((upper - lower).stableNorm());
           },
           window_program::edits, moves, parameters::known_valid(true))
     , path(file.path())
+    , left_out(std::move(found))
     , log_path(log_given)
     , log(log_given, log_given.empty() ? "" : file.hash())
     , edge_length(mean_edge_length(mesh))

@@ -26,6 +26,7 @@ struct Model : Loop_scene<Mesh> {
   using Mask = Mesh::Property_map<Vertex_index, double>;
 
   std::string path;
+  std::vector<std::string> left_out; ///< what its file has and a mesh has not
   std::string log_path; ///< empty: there is none
   examples::Run_log log;
   std::size_t resumed = 0; ///< edits of the log that were there
@@ -38,8 +39,8 @@ struct Model : Loop_scene<Mesh> {
   std::atomic<unsigned> times_broken_off{0};
   std::atomic<bool> ends{false};
 
-  /// \throw what reading meshes and logs throws
-  Model(const examples::Mesh_file& file, const std::string& log);
+  /// \param found takes what the file has and a mesh has not \throw what reading meshes and logs throws
+  Model(const examples::Mesh_file& file, const std::string& log, std::vector<std::string> found = {});
 
   /// Lit by the faces about each corner that differ by less than a crease.
   Seen_face face(std::uint32_t index) const;

@@ -34,6 +34,7 @@ struct Sculpting_thread::Parts {
   std::size_t vertices = 0, faces = 0;          ///< slots of the model entered last
   std::uint64_t failures = 0;                   ///< that were reported
   std::vector<Model*> models;                   ///< the loop's, in the order in which they are entered
+  std::size_t entered = 0;                      ///< how many have been so far
 
   void ask(const Command& command) {
     waiting.push_back(command);
@@ -102,8 +103,10 @@ struct Sculpting_thread::Parts {
     if (!is_pick_due || is_picking || !may_pick())
       return;
     is_picking = true, is_pick_due = false;
-    ask(std::make_shared<Pick>(mouse.pointer()), [this](const Pick& done, Report&) {
+    ask(std::make_shared<Pick>(mouse.pointer()), [this, of = entered](const Pick& done, Report&) {
       is_picking = false;
+      if (of != entered) // of the mesh before
+        return false;
       pointed = done.pointed;
       if (mouse.hold() == Hold::probe && pointed.size > 0) {
         mouse.aim(pointed.at);
@@ -151,11 +154,12 @@ Sculpting_thread::~Sculpting_thread() {
     destroy(model, true);
 }
 
-void Sculpting_thread::enter(Model* model) {
+void Sculpting_thread::enter(std::unique_ptr<Model, Destroy_with_log> opened) {
   Parts& p = *parts_;
+  p.models.push_back(opened.get());
+  Model* const model = opened.release();
   p.vertices = model->mesh.num_vertices(), p.faces = model->mesh.num_faces();
   const Workspace_map map = model->map; // from here on the model is the loop's
-  p.models.push_back(model);
   if (!p.loop) {
     p.loop.emplace(model);
   } else {
@@ -165,6 +169,7 @@ void Sculpting_thread::enter(Model* model) {
   }
   p.let_go();
   p.mouse.enter(map);
+  p.pointed = Pointed(), ++p.entered;
 }
 
 void Sculpting_thread::press(const Pointer& pointer, Tool tool, const Brush& brush) {
@@ -298,6 +303,10 @@ bool Sculpting_thread::has_done_all() const {
   const Parts& p = *parts_;
   return p.loop && p.waiting.empty() && !is_stroke_waiting() && p.loop->queue.waiting() == (p.stroke != nullptr) &&
          p.status.made > p.answered;
+}
+
+const Pointed& Sculpting_thread::pointed() const {
+  return parts_->pointed;
 }
 
 bool Sculpting_thread::is_idle() const {

@@ -26,6 +26,11 @@ struct Report {
   std::uint64_t edits = 0; ///< copied: Status::edits of that moment
 };
 
+/// Of a model that comes to nobody: its log stays.
+struct Destroy_with_log {
+  void operator()(Model* model) const;
+};
+
 /// The window's side of the haptic loop, which is a thread of its own, a thousand ticks a second, and the only one that
 /// touches the mesh it was given: the mouse, what is asked of the loop through its Command_queue, and what comes back.
 /// Waits for nothing but the end.
@@ -39,7 +44,7 @@ public:
   /// \name Asking; all but `copy()` let go of what is in hand
   ///@{
   /// The loop begins with the first. The model is the loop's until it comes back as Report::Kind::left.
-  void enter(Model* model);
+  void enter(std::unique_ptr<Model, Destroy_with_log> model);
   void press(const Pointer& pointer, Tool tool, const Brush& brush);
   void let_go();
   void break_off();                                   ///< lets go, and ends remeshing where it is
@@ -63,6 +68,7 @@ public:
   ///@}
 
   const Status& status();
+  const Pointed& pointed() const; ///< what the mouse has pointed at last, as far as it is known
   bool take(Seen_face& change);
   bool take(Report& report);
   /// Whether all that was asked for is done and in status(); a stroke is done when it waits for nothing.
@@ -80,7 +86,7 @@ private:
 
 /// A model that another thread has opened, and what the window needs of it.
 struct Opened {
-  Model* model = nullptr; ///< to be entered, or destroyed
+  std::unique_ptr<Model, Destroy_with_log> model; ///< to be entered, or destroyed
   std::string path, log;
   std::size_t resumed = 0;      ///< edits of the log that were made again
   std::string note;             ///< for people: what of the log was not

@@ -264,6 +264,8 @@ class Save : public Copy_task<Scene> {
 public:
   using Copy_task<Scene>::Copy_task;
   std::uint64_t edits = 0; ///< that are in it
+  std::string opened;      ///< the file that it is of
+  std::vector<std::string> left_out; ///< what that has besides
 
   /// \pre it is done, and the copy is whole
   Mesh mesh() const {
@@ -286,6 +288,7 @@ public:
     edits = scene.edits;
     if (!Copy_task<Scene>::go_on(scene, tool))
       return false;
+    opened = scene.path, left_out = scene.left_out;
     for (const auto& [name, type, map] : vertex_attributes(scene.mesh)) {
       attributes_.push_back({name, type, {}});
       for (std::size_t v = 0; v < scene.mesh.num_vertices(); ++v)

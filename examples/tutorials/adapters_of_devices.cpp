@@ -63,14 +63,13 @@ public:
     Pose_reading reading;
     std::copy(state.position, state.position + 3, reading.position.data()); // metres
     reading.elapsed = state.time - last_, last_ = state.time; // by the device's own clock
-    reading.button = button_.next(state.button, reading.elapsed);
+    reading.button = state.button;                            // the loop sees to contacts that bounce
     loop_.open_clutch(state.forces_permitted == 0); // not permitted: let go of gently
     give(loop_.tick(reading).rendered.force);
   }
 
 private:
   Loop& loop_;
-  Debounced_button button_;
   double last_ = 0;
 
   static void give(const Eigen::Vector3d& force) { vendor::set_force(force.data()); }

@@ -5,6 +5,8 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <algorithm>
+#include <chrono>
 #include <iostream>
 #include <thread>
 
@@ -15,10 +17,11 @@ using Scene = Loop_scene<Mesh>;
 /// Stands for what a vendor ships: here a handle of 0.1 kg with some friction, which a hand lets down with half a
 /// newton.
 namespace vendor {
-double z = 0.05, speed = 0, force[3];
-void get_position(double p[3]) {
+double time, z = 0.05, speed = 0, force[3];
+double get_position(double p[3]) { // returns when that was
   speed += 0.001 * (force[2] - 0.5 - 3 * speed) / 0.1, z += 0.001 * speed;
   p[0] = 0.003, p[1] = 0.002, p[2] = z;
+  return time += 0.001;
 }
 void set_force(const double f[3]) {
   std::copy(f, f + 3, force);
@@ -29,11 +32,13 @@ bool is_button_down() {
 } // namespace vendor
 
 struct Driver { // models PoseDevice
+  double last = 0;
+  ~Driver() { write_force({0, 0, 0}); } // on every way out
   Pose_reading read_pose() {
     Pose_reading reading;
-    vendor::get_position(reading.position.data()); // metres
+    const double now = vendor::get_position(reading.position.data()); // metres
     reading.button = vendor::is_button_down() ? 1 : 0;
-    reading.elapsed = 0.001; // s; of a device that has a clock, what that says
+    reading.elapsed = now - last, last = now; // s, by the device's clock, or std::chrono's, or stalls are not seen
     return reading;
   }
   void write_force(const Eigen::Vector3d& force) { vendor::set_force(force.data()); } // N, on the hand
@@ -48,10 +53,12 @@ int main(int argc, char** argv) try {
   const Pose_loop_parameters parameters(3); // N s/m that the device itself has: it bounds the stiffness
   Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.map, parameters);
   Driver driver;
-  auto next = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  auto next = Clock::now();
   for (int tick = 0; tick < 1500 && !loop.has_stopped(); ++tick) {
     driver.write_force(loop.tick(driver.read_pose()).rendered.force);
-    std::this_thread::sleep_until(next += std::chrono::milliseconds(1));
+    next = std::max(next + std::chrono::milliseconds(1), Clock::now()); // what was missed is not made up for
+    std::this_thread::sleep_until(next);
   }
   std::cout << "the handle rests at " << vendor::z << " m; pushed up by " << vendor::force[2] << " N\n";
   const bool is_held = std::abs(vendor::force[2] - 0.5) < 0.05 && std::abs(vendor::speed) < 0.01 && vendor::z > 0;

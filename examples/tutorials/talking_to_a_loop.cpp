@@ -5,8 +5,10 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <atomic>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <thread>
 
 using namespace haptic_sculpt;
@@ -62,6 +64,8 @@ int main(int argc, char** argv) try {
     }
     session.end();
   });
+  const auto end_loop = [&](void*) { ends = true, loop_thread.join(); };
+  std::unique_ptr<void, decltype(end_loop)> running(&ends, end_loop); // on every way out
 
   // From here on this is the window's thread, and the mesh is the loop's alone.
   std::map<std::uint32_t, Face_change> shown; // or vertices of a graphics card
@@ -102,10 +106,11 @@ int main(int argc, char** argv) try {
   queue.ask(copy);
   while (!queue.take(answer)) // the hand goes on meanwhile
     std::this_thread::yield();
-  ends = true;
-  loop_thread.join();
+  running.reset();
+  if (!copying.copy.is_whole())
+    return std::cerr << "the mesh has outgrown the room of its copy\n", 1;
   const Mesh before = read_surface<Mesh>(argv[1]), after = copying.copy.mesh<Mesh>(); // to be saved
-  is_good = is_good && copying.copy.is_whole() && before.number_of_vertices() == after.number_of_vertices();
+  is_good = is_good && before.number_of_vertices() == after.number_of_vertices();
   for (const auto v : before.vertices())
     is_good = is_good && before.point(v) == after.point(v);
   if (has_moved)

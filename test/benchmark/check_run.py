@@ -130,10 +130,12 @@ def kill_and_resume(out):
 
 
 def damaged(out):
-    """A report, a note or a result that is cut off is made again by the same command."""
-    for name in ("shards/axis/0_of_1.json", "shards/axis/0_of_1.note", "results/axis.json"):
+    """A report, a note or a result that is cut off is made again by the same command, each of another step."""
+    names = ("shards/axis/0_of_1.json", "shards/drags_and_edits/0_of_3.note", "results/device.json")
+    for name in names:
         (out / name).write_text((out / name).read_text()[:100])
-        done = run(out, *STEPS)
+    done = run(out, *STEPS)
+    for name in names:
         is_whole = done.returncode == 0 and json.loads((out / name).read_text())
         expect(is_whole, f"{name} cut off: exit {done.returncode}, {done.stderr[-500:]}")
 
@@ -522,6 +524,10 @@ def exit_codes(folder):
         done = subprocess.run([str(BUILD / "benchmark" / words[0]), *words[1:]], capture_output=True, text=True)
         expect(done.returncode == code and said in done.stdout + done.stderr, f"{words}: exit {done.returncode}, {done.stderr}")
     expect(kept.read_text() == "kept", "a report is written over a mesh")
+    with kept.open("w") as table:
+        done = subprocess.run([str(BUILD / "benchmark/axis_speed_error"), "--queries", "1", "--json", str(kept)],
+                              stdout=table, stderr=subprocess.PIPE, text=True)
+    expect(done.returncode == 2 and "standard output" in done.stderr, f"a report over its own table: {done}")
 
 
 def answers(out, folder):

@@ -114,6 +114,24 @@ BOOST_AUTO_TEST_CASE(inverse_of_the_mirror_case_names_what_has_no_answer) {
   BOOST_TEST((status(0, 0.05, 0) == Device_status::unreachable));
 }
 
+// Joint limits count angles as they are given, not modulo a turn.
+BOOST_AUTO_TEST_CASE(angles_of_the_mirror_case_do_not_know_the_sign_of_a_zero) {
+  const Device_parameters<double> parameters(named_design<double>(Named_design::D3, Device_form::general));
+  int behind = 0;
+  for (const double x : {-0.02, 0.02, -0.01})
+    for (const double y : {0.0, 0.01, -0.015}) {
+      auto level = mirror_inverse(parameters, Vector(x, y, 0.0)),
+           other = mirror_inverse(parameters, Vector(x, y, -0.0));
+      BOOST_TEST((level.status() == other.status()));
+      for (int leg = 0; leg < 3; ++leg) {
+        BOOST_TEST(level.value_to_fill().minus[leg] == other.value_to_fill().minus[leg]);
+        BOOST_TEST(level.value_to_fill().plus[leg] == other.value_to_fill().plus[leg]);
+        behind += level.value_to_fill().plus[leg] > 3.2;
+      }
+    }
+  BOOST_TEST(behind > 0);
+}
+
 BOOST_AUTO_TEST_CASE(inverse_of_the_mirror_case_bears_the_rounding_of_straight_legs) {
   constexpr double upright = 1.5707963267948966;
   for (int k = 1; k < 2000; ++k) {

@@ -484,6 +484,7 @@ def no_logs(folder, mesh):
     foreign = bytes_of(f"{folder}/foreign.log")
     for contents in (b"precious", b"precious\n", b"\n", b"#", b"m", b"mesh", b"mesh 12\n", b"mesh " + digest.encode(), b"drag 3 0 0 2\n", b"\0" * 5000,
                      b"two\nlines", bytes_of(mesh), b"\x89PNG\r\n\x1a\n" + bytes(range(256)), b"# haptic_sculpt log",
+                     checked("# haptic_sculpt log"), checked("# haptic_sculpt log 2"),
                      f"mesh {'0' * 64}\ndrag 3 0 0 2\nunfinished".encode(), foreign, foreign[:-5]):
         log = write(f"{folder}/no.log", contents)
         for arguments in ((), ("--script", "/dev/stdin")):

@@ -202,19 +202,19 @@ BOOST_AUTO_TEST_CASE(a_burst_on_top_of_the_largest_force_is_clamped_too) {
     Force_chain chain(limits, Virtual_coupling(), 1 / rate);
     const Vector3d wanted(0, 0, 9);
     for (int k = 0; k < rate; ++k)
-      chain.follow(wanted, 1);
+      chain.follow(wanted, 1, chain.tick());
     chain.refuse(wanted, 1);
     double largest = 0, least = limits.largest;
     for (int k = 0; k < 0.1 * rate; ++k) {
-      const double norm = chain.follow(wanted, 1).norm();
+      const double norm = chain.follow(wanted, 1, chain.tick()).norm();
       largest = std::fmax(largest, norm), least = std::fmin(least, norm);
     }
     BOOST_TEST(largest <= limits.largest * (1 + 1e-15));
     BOOST_TEST(least < limits.largest - 0.2); // the burst was there
     chain.refuse(wanted, 1);
-    chain.follow(wanted, 1);
+    chain.follow(wanted, 1, chain.tick());
     chain.cut_burst();
-    BOOST_TEST(std::abs(chain.follow(wanted, 1).norm() - limits.largest) <= 1e-12);
+    BOOST_TEST(std::abs(chain.follow(wanted, 1, chain.tick()).norm() - limits.largest) <= 1e-12);
   }
 }
 
@@ -260,7 +260,7 @@ BOOST_AUTO_TEST_CASE(a_fade_ends_in_equal_steps_at_exactly_nothing) {
   Force_chain chain(limits, Virtual_coupling(), 0.002);
   BOOST_TEST((chain.limits().largest == 3 && chain.tick() == 0.002));
   BOOST_TEST(std::abs(chain.next_ramp() - 0.005) <= 1e-15);
-  chain.follow(Vector3d::Zero(), 0);
+  chain.follow(Vector3d::Zero(), 0, 0.002);
   BOOST_TEST(std::abs(chain.next_ramp() - 0.01) <= 1e-15);
   BOOST_TEST(std::abs(chain.fade(0.004) - 0.96) <= 1e-12); // of 100 ms
   BOOST_TEST(std::abs(chain.fade(0) - 0.94) <= 1e-12);     // a tick at least

@@ -158,6 +158,10 @@ BOOST_AUTO_TEST_CASE(limits_that_were_made_for_something_else_or_by_nobody_are_r
   const Workspace_map map(50, Vector3d(0.3, -0.2, 0.9), Vector3d(1, 2, 3), home->position);
   const auto is_inside = [&](const Vector3d& p) { return (p - home->position).norm() <= 0.02; };
   const Haptic_parameters asked;
+  for (const int per_joint : {1, 0, -3, 2000}) {
+    BOOST_CHECK_THROW(worst_pose(parameters, asked.limits, is_inside, per_joint), Error);
+    BOOST_CHECK_THROW(lightest_pose(parameters, asked.limits, is_inside, per_joint), Error);
+  }
   const Worst_pose worst = worst_pose(parameters, asked.limits, is_inside, 9),
                    lightest = lightest_pose(parameters, asked.limits, is_inside, 7);
   const Passivity_limits made = passivity_limits(parameters, asked.limits, map, worst, lightest, 0, 0.001, 0);

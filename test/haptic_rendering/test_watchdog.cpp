@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <haptic_sculpt/haptic_rendering/Pose_loop.h>
 #include <haptic_sculpt/haptic_rendering/Watchdog.h>
 
 #include <boost/test/unit_test.hpp>
@@ -49,6 +50,7 @@ BOOST_AUTO_TEST_CASE(a_watchdog_sees_each_fault_and_nothing_else) {
 
 BOOST_AUTO_TEST_CASE(the_first_fault_that_is_reported_stays) {
   Watchdog watchdog(Watchdog_limits(), 0.001, 0.2);
+  BOOST_TEST(watchdog.limits().stall_time == 0.02);
   watchdog.report(Loop_fault::none);
   BOOST_TEST((watchdog.fault() == Loop_fault::none));
   watchdog.report(Loop_fault::energy), watchdog.report(Loop_fault::log);
@@ -57,6 +59,28 @@ BOOST_AUTO_TEST_CASE(the_first_fault_that_is_reported_stays) {
   watchdog.reset();
   BOOST_TEST((watchdog.fault() == Loop_fault::none));
   BOOST_TEST(watchdog.check(Vector3d::Zero(), Vector3d::Zero(), 0.001));
+}
+
+// The device has let go by its own timeout by then.
+BOOST_AUTO_TEST_CASE(a_stall_while_a_force_fades_ends_it) {
+  const Haptic_parameters parameters = Pose_loop_parameters(5).checked();
+  Interaction<Pose_side> loop(Pose_side(Pose_device(5), parameters), parameters, 0);
+  Pose_reading reading;
+  reading.elapsed = parameters.tick;
+  Touch touch;
+  touch.way = Vector3d(0.003, 0, 0), touch.is_free = false;
+  for (int k = 0; k < 500; ++k) {
+    BOOST_REQUIRE(loop.follow(reading));
+    loop.render(touch), loop.end_tick();
+  }
+  loop.report(Loop_fault::log), loop.end_tick();
+  const double left = loop.rendered().force.norm();
+  BOOST_TEST(left > 0.1);
+  loop.let_pass(0.019), loop.end_tick();
+  BOOST_TEST(loop.rendered().force.norm() > 0.9 * left);
+  loop.let_pass(0.021), loop.end_tick();
+  BOOST_TEST(loop.rendered().force == Vector3d::Zero());
+  BOOST_TEST(loop.has_faded());
 }
 
 } // namespace

@@ -55,14 +55,15 @@ BOOST_AUTO_TEST_CASE(changes_by_others_are_found) {
 // What is in hand has faces that are no more, and nothing is read of them.
 BOOST_AUTO_TEST_CASE(others_that_leave_fewer_elements_than_the_hand_holds_are_found) {
   for (const bool clears : {false, true})
-    for (int way = 0; way < 8; ++way) {
+    for (int way = 0; way < 17; ++way) {
       BOOST_TEST_INFO_SCOPE("clears " << clears << ", way " << way);
       Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.1));
       const Mesh fewer = meshes::to_mesh(meshes::tetrahedron());
       Sculptor<Mesh> sculptor(mesh);
       const Vertex_index v(static_cast<Mesh::size_type>(mesh.number_of_vertices() - 1));
       auto grab = sculptor.grab(v);
-      BOOST_TEST(grab.drag_to(mesh.point(v) + 0.2 * (mesh.point(v) - CGAL::ORIGIN)).reached);
+      if (way < 8) // else nothing in hand has moved, whose faces would be looked for
+        BOOST_TEST(grab.drag_to(mesh.point(v) + 0.2 * (mesh.point(v) - CGAL::ORIGIN)).reached);
       if (clears)
         mesh.clear();
       else
@@ -76,7 +77,38 @@ BOOST_AUTO_TEST_CASE(others_that_leave_fewer_elements_than_the_hand_holds_are_fo
         case 4: sculptor.edge_of(100, 101); break;
         case 5: sculptor.face_of(100, 101, 102); break;
         case 6: sculptor.apply(Edit::of(Edit_kind::collapse, {100, 101, 0})); break;
-        default: sculptor.probe(Point_3(9, 9, 9));
+        case 7:
+          sculptor.probe(Point_3(9, 9, 9));
+          break;
+        case 8:
+          sculptor.apply(Edit::of(Edit_kind::move, {100, 0, 0}, {0, 0, 2}));
+          break;
+        case 9:
+          sculptor.apply(Edit::of(Edit_kind::remove, {100, 0, 0}));
+          break;
+        case 10: {
+          Edit shift = Edit::of(Edit_kind::shift);
+          shift.ways = {{100, 0.5}};
+          sculptor.apply(shift);
+          break;
+        }
+        case 11:
+          grab.drag_to(Point_3(0, 0, 2));
+          break;
+        case 12:
+          sculptor.drag(v, Point_3(0, 0, 2));
+          break;
+        case 13:
+          sculptor.move_if_free(v, Point_3(0, 0, 2));
+          break;
+        case 14:
+          sculptor.first_impact(v, Point_3(0, 0, 2));
+          break;
+        case 15:
+          sculptor.is_inside_out(v);
+          break;
+        default:
+          sculptor.grab(v);
         }
       };
       BOOST_CHECK_THROW(use(), Mesh_changed);

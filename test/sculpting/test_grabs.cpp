@@ -192,3 +192,18 @@ BOOST_AUTO_TEST_CASE(a_vertex_that_contacts_hold_is_held_however_often_it_is_dra
     }
   }
 }
+
+// Nor by a hand that holds nothing.
+BOOST_AUTO_TEST_CASE(no_vertex_is_not_dragged) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.1));
+  Sculptor<Mesh> sculptor(mesh);
+  const Point_3 p(0, 0, 2);
+  for (const bool is_once : {false, true}) {
+    BOOST_CHECK_THROW(sculptor.drag(Vertex_index(), p, Drag_parameters().once(is_once)), Unknown_vertex);
+    sculptor.drag(Vertex_index(3), p, Drag_parameters().once(is_once));
+    sculptor.release();
+    BOOST_CHECK_THROW(sculptor.drag(Vertex_index(), p, Drag_parameters().once(is_once)), Unknown_vertex);
+    BOOST_CHECK_THROW(sculptor.move_if_free(Vertex_index(), p, Drag_parameters().once(is_once)), Unknown_vertex);
+    BOOST_CHECK_THROW(sculptor.first_impact(Vertex_index(), p), Unknown_vertex);
+  }
+}

@@ -9,7 +9,9 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <new>
+#include <set>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -38,6 +40,37 @@ public:
 
 private:
   std::size_t* asked_;
+};
+
+/// Traits whose functors refer to them, and ask whether they live.
+class Own_traits : public Exact_sweep_traits<Mesh> {
+public:
+  static inline std::set<const Own_traits*> living;
+  static inline std::size_t asked = 0, asked_of_dead = 0;
+
+  struct Sweep {
+    const Own_traits* traits;
+
+    template <class... Points>
+    std::optional<Impact_3> operator()(const Points&...) const {
+      return ask(), std::nullopt;
+    }
+    template <class... Points>
+    bool do_collide(const Points&...) const {
+      return ask(), false;
+    }
+    void ask() const { ++asked, asked_of_dead += living.count(traits) == 0; }
+  };
+  using Vertex_face_sweep_3 = Sweep;
+  using Edge_edge_sweep_3 = Sweep;
+  using Face_vertex_sweep_3 = Sweep;
+
+  Own_traits() { living.insert(this); }
+  Own_traits(const Own_traits& other) : Exact_sweep_traits<Mesh>(other) { living.insert(this); }
+  ~Own_traits() { living.erase(this); }
+  Sweep vertex_face_sweep_3_object() const { return {this}; }
+  Sweep edge_edge_sweep_3_object() const { return {this}; }
+  Sweep face_vertex_sweep_3_object() const { return {this}; }
 };
 
 } // namespace
@@ -236,6 +269,34 @@ BOOST_AUTO_TEST_CASE(what_stops_a_drag_are_its_traits) {
   BOOST_TEST(!validate(mesh).is_valid()); // it has gone through: nothing else has stopped it
   BOOST_TEST(bool(blind.undo()));
   BOOST_TEST(validate(mesh).is_valid());
+}
+
+BOOST_AUTO_TEST_CASE(copies_of_traits_live_as_long_as_what_they_made) {
+  Mesh mesh = ball();
+  using Own_sculptor = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Default_edit_visitor, Own_traits>;
+  for (const bool are_given : {false, true}) {
+    const auto sculptor = are_given ? std::make_unique<Own_sculptor>(mesh, parameters::clearance(1e-9),
+                                                                     Default_edit_visitor(), Own_traits())
+                                    : std::make_unique<Own_sculptor>(mesh, parameters::clearance(1e-9));
+    const Point_3 p = mesh.point(Vertex_index(0)), target(-1.5 * p.x(), -1.5 * p.y(), -1.5 * p.z());
+    Own_traits::asked = 0;
+    sculptor->first_impact(Vertex_index(0), target);
+    sculptor->probe(Point_3(9, 8, 7)).drag_to(Point_3(-9, -8, -7));
+    sculptor->drag(Vertex_index(0), target);
+    BOOST_TEST(Own_traits::asked > 0u);
+    sculptor->undo();
+  }
+  BOOST_TEST(Own_traits::asked_of_dead == 0u);
+}
+
+// Without a vertex no map has an array of its own.
+BOOST_AUTO_TEST_CASE(a_map_of_points_is_kept_by_an_empty_mesh_and_not_where_they_are_the_vertices) {
+  Mesh mesh;
+  const auto target = mesh.add_property_map<Vertex_index, Point_3>("v:target").first;
+  Sculptor<Mesh>(mesh).keep(target);
+  Mesh full = ball();
+  Sculptor<Mesh> sculptor(full);
+  BOOST_CHECK_THROW(sculptor.keep(full.points()), Invalid_parameter);
 }
 
 BOOST_AUTO_TEST_CASE(far_targets_and_huge_meshes_are_ordinary) {

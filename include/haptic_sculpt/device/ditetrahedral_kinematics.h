@@ -15,6 +15,12 @@ template <class S> struct Wider { using type = S; };
 template <> struct Wider<float> { using type = double; };
 template <> struct Wider<double> { using type = long double; };
 
+/// -0 becomes 0, whatever the rounding mode, so that a level point behind the shoulder is at +pi.
+template <class S>
+S without_sign_of_zero(const S& x) {
+  return x == S(0) ? S(0) : x;
+}
+
 /// Below this part of l2^2 the squared height of the apex over the elbow plane has lost two digits to cancellation.
 template <class S> S cancelled_height() { return S(1) / S(100); }
 
@@ -196,7 +202,7 @@ inline Outcome<Ditetrahedral_inverse<S>> ditetrahedral_inverse(const Device_para
         shortfall = -least;
       continue;
     }
-    const S centre = atan2(t.z + S(0), t.x); // + 0 turns -0 into 0, so that a level point behind the shoulder is at +pi
+    const S centre = atan2(internal::without_sign_of_zero(t.z), t.x);
     const S half_opening = S(2) * atan2(S(sqrt(t.one_minus)), S(sqrt(t.one_plus)));
     inverse.minus[leg] = centre - half_opening;
     inverse.plus[leg] = centre + half_opening;
@@ -241,7 +247,8 @@ inline Outcome<Joint_angles<S>> ditetrahedral_inverse(const Device_parameters<S>
     }
     const S cosine = (t.one_plus - t.one_minus) / S(2);
     const S sine = working_mode[leg] == 0 ? S(-sqrt(t.one_minus * t.one_plus)) : S(sqrt(t.one_minus * t.one_plus));
-    angles.theta[leg] = atan2(t.z * cosine + t.x * sine + S(0), t.x * cosine - t.z * sine);
+    angles.theta[leg] =
+        atan2(internal::without_sign_of_zero(S(t.z * cosine + t.x * sine)), S(t.x * cosine - t.z * sine));
   }
   if (!finite)
     outcome.fail(at_shoulder ? Device_status::singular : Device_status::not_finite, S(0));

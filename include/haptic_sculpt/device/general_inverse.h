@@ -248,7 +248,8 @@ Outcome<Ditetrahedral_inverse<S>> mirror_inverse(const Device_parameters<S>& par
       shortfall = -least > shortfall ? S(-least) : shortfall;
       continue;
     }
-    const S centre = atan2(z, x), half_opening = atan2(S(sqrt((S(1) - cosine) * (S(1) + cosine))), cosine);
+    const S centre = atan2(internal::without_sign_of_zero(z), x),
+            half_opening = atan2(S(sqrt((S(1) - cosine) * (S(1) + cosine))), cosine);
     inverse.minus[leg] = centre - half_opening;
     inverse.plus[leg] = centre + half_opening;
   }

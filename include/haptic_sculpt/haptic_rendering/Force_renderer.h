@@ -32,11 +32,11 @@ public:
 
   /// The force and torques of this tick; once a tick. \param wanted N, in axes of the device
   const Rendered_force& render(const Handle_motion& handle, const Eigen::Vector3d& wanted) {
-    return render(handle, wanted, handle.step().norm());
+    return render(handle, wanted, handle.step().norm(), chain_.tick());
   }
-  /// \param way of the handle that made it what it is, m
-  const Rendered_force& render(const Handle_motion& handle, const Eigen::Vector3d& wanted, double way) {
-    const Eigen::Vector3d force = chain_.follow(wanted, way);
+  /// \param way of the handle that made it what it is, m \param elapsed since the last tick, s
+  const Rendered_force& render(const Handle_motion& handle, const Eigen::Vector3d& wanted, double way, double elapsed) {
+    const Eigen::Vector3d force = chain_.follow(wanted, way, elapsed);
     carried_ = std::fmin(1.0, carried_ + chain_.tick() / chain_.limits().ramp_time);
     in_room(handle, force * share_at(handle));
     if (!last_.force.allFinite() || !last_.torque.allFinite())

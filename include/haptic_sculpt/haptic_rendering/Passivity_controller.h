@@ -39,7 +39,7 @@ public:
     damping_ = std::fmin(most_damping_, missing / (std::fmax(elapsed, tick_) * square)); // as long as the next may be
     return -damping_ * velocity;
   }
-  /// The damper of the last tick, N s/m.
+  /// The damper of the last force(), N s/m.
   double damping() const { return damping_; }
 
 private:

@@ -54,7 +54,7 @@ public:
     const Eigen::Vector3d hand = map_.to_scene(handle);
     Tool_step step;
     if (grab_ && !holds_vertex()) // somebody beside the tool took or removed it
-      let_go();
+      mesh_edits_.is_asked() ? grab_.reset() : drop();
     const auto in_hand = [this] { return holds_vertex() ? grab_->vertex() : Vertex_index(); };
     const Vertex_index held = in_hand();
     step.event = press(hand, button);
@@ -79,15 +79,12 @@ public:
   }
 
   /// Lets go of everything, as at a fault. The next move begins anew, anchored, with the probe; a button that is held
-  /// does nothing until it is pressed again.
+  /// does nothing until it is pressed again. \throw Reentrant_call, as all that changes what is in hand or which
+  /// journal hears of it, where a function of the caller's asks for it in the middle of a call; nothing has changed
+  /// then
   void let_go() {
-    const internal::Rounding_to_nearest rounding;
-    grab_.reset();
-    mesh_edits_.end_stroke();
-    is_anchored_ = is_stroke_of_button_ = false;
-    last_drag_.reset();
-    if (!carries_probe_)
-      drop_probe();
+    mesh_edits_.check_nobody_asks();
+    drop();
   }
 
   /// \name Between two ticks
@@ -135,6 +132,7 @@ public:
   /// each, but a stroke under way goes on. \return what the function gives \throw what it throws
   template <class Function>
   auto edit_by(const Function& function) {
+    mesh_edits_.check_nobody_asks();
     grab_.reset();
     is_anchored_ = is_anchored_ && carries_probe_;
     return function(mesh_edits_);
@@ -164,10 +162,15 @@ public:
     mesh_edits_.keep_journal(journal);
     return ++journals_;
   }
-  /// Ends what a call of keep_journal() began, unless another one has been made since.
+  /// Ends what a call of keep_journal() began, unless another one has been made since. For destructors: lets go,
+  /// whoever asks.
   void end_journal(std::uint64_t number) {
-    if (number == journals_)
-      keep_journal(nullptr);
+    if (number != journals_)
+      return;
+    if (mesh_edits_.journal() != nullptr)
+      drop();
+    mesh_edits_.keep_journal(nullptr);
+    ++journals_;
   }
 
   bool holds_vertex() const { return vertex().is_valid(); }         ///< the probe does not count
@@ -219,6 +222,15 @@ private:
     return std::exp(-tick / offset_time);
   }
 
+  void drop() {
+    const internal::Rounding_to_nearest rounding;
+    grab_.reset();
+    mesh_edits_.end_stroke();
+    is_anchored_ = is_stroke_of_button_ = false;
+    last_drag_.reset();
+    if (!carries_probe_)
+      drop_probe();
+  }
   void drop_probe() { probe_.reset(), touched_.reset(), placement_.reset(); }
 
   /// Puts the probe to p. Returns false, and leaves it, where that is refused: on a face, or inside of a solid.
@@ -268,10 +280,9 @@ private:
   }
 
   Tool_event press(const Eigen::Vector3d& hand, int button) {
-    const int before = button_;
-    button_ = button;
-    if (button == before)
+    if (button == button_ || mesh_edits_.is_asked()) // then it waits
       return Tool_event::none;
+    button_ = button;
     if (button == 1)
       return counted(grab_or_create(hand));
     const Tool_event released = grab_ && button == 0 ? release() : Tool_event::none;
@@ -323,7 +334,7 @@ private:
     try {
       return function();
     } catch (...) {
-      let_go();
+      drop();
       throw;
     }
   }

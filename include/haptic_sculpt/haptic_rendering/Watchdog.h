@@ -67,6 +67,7 @@ public:
   }
 
   Loop_fault fault() const { return fault_; } ///< the first one since the last reset()
+  const Watchdog_limits& limits() const { return limits_; } ///< those that were given
   /// A fault that was found elsewhere; ignored where there is one already.
   void report(Loop_fault fault) { fault_ = fault_ == Loop_fault::none ? fault : fault_; }
   /// After a fault has been seen to; the next angles are taken as they are, whenever they come.

@@ -37,6 +37,7 @@ public:
 
   Done apply(Sculptor& sculptor, const Edit& edit) {
     const Rounding_to_nearest rounding;
+    Sculptor_access::guarded(sculptor).check_may_begin(); // before anything is looked up, or written here
     Edit made = edit; // before anything is changed: memory may run out, and a visitor may drop the caller's
     if (made.kind == Edit_kind::move)
       return move(sculptor, made);

@@ -208,7 +208,8 @@ public:
 
   /// Does an edit given by value, and gives it back as it can be done again. Strokes begun by one are ended by another;
   /// moves of one vertex that follow each other are one grab. A move with legs is a drag for each, all one step: what
-  /// is thrown in one leaves those before it. \throw as the functions that the kinds are named after
+  /// is thrown in one leaves those before it. \throw Mesh_changed whatever the kind; else as the functions that the
+  /// kinds are named after
   Applied<Mesh_type> apply(const Edit& edit) { return applier_.apply(*this, edit); }
 
   /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as
@@ -265,7 +266,7 @@ public:
   std::size_t id(Vertex_index v) const { return guarded_.whole_editor().ids().checked_id(v); }
   /// The null index where the vertex is dead, or the number was never given.
   Vertex_index vertex(std::size_t id) const { return guarded_.whole_editor().ids().vertex(id); }
-  /// One more than the largest number given.
+  /// One more than the largest number given; at first the slots of the mesh, those of removed vertices included.
   std::size_t number_of_ids() const { return guarded_.whole_editor().ids().size(); }
   /// The face of three corners, by number and in any order; the null index where there is none.
   Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const {

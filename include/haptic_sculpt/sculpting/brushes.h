@@ -31,9 +31,9 @@ void check_strength(const Mesh& mesh, const Dab_3<Kernel>& dab, typename Mesh::V
 /// \return what became of the vertices touched; none are asked where no vertex is within the radius
 ///
 /// One step of the history. \throw Out_of_range where a dab wants a vertex out of range, or its radius or direction
-/// is; Invalid_parameter where a radius is not >= 0, a strength more than largest_strength(), or the mask not from 0 to
-/// 1: nothing has moved; Mesh_changed, std::bad_alloc: what has moved by then stays so. Cost: some microseconds for
-/// each vertex touched.
+/// is; Invalid_parameter where a radius is not >= 0, a direction 0, a strength more than largest_strength(), or the
+/// mask not from 0 to 1: nothing has moved; Mesh_changed, std::bad_alloc: what has moved by then stays so. Cost: some
+/// microseconds for each vertex touched.
 template <class Concurrency_tag = CGAL::Sequential_tag, class Sculptor, class Dab_range,
           class Mask_map = boost::static_property_map<double, typename Sculptor::Vertex_index>>
 Move_report apply_brush(Sculptor& sculptor, const Dab_range& dabs, const Mask_map& mask = Mask_map(1.0),

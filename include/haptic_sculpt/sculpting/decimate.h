@@ -15,11 +15,13 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 #include <CGAL/Surface_mesh_simplification/internal/Edge_collapse.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace haptic_sculpt {
 
@@ -35,8 +37,9 @@ struct Decimation_report {
 /// that is refused, as in planes, one end is to go into the other, and from there to the placement if it can: that
 /// comes when it is the cheapest, by what the policy says that the end costs. What is refused again is left out until
 /// something beside it has changed. So the mesh is embedded at every moment. No face that stays turns its normal by a
-/// right angle or more, in rounded numbers; of edges that cost the same the shortest goes first, and a cost below 0 is
-/// one of 0 that was rounded.
+/// right angle or more, in rounded numbers; of edges that cost the same the shortest goes first, a cost below 0 is one
+/// of 0 that was rounded, and one that is not finite is none: an edge without a
+/// cost, or without a placement, stays.
 ///
 /// \param should_stop a model of CGAL's `StopPredicate`, e.g. `Edge_count_stop_predicate` or, in CGAL 5.5,
 /// `Count_stop_predicate`; of 10,000 faces a closed mesh has 15,000 edges. Your own: `bool should_stop(cost, profile,
@@ -124,14 +127,15 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     if (keeps_v && keeps_w)
       return queue.leave_out(e);
     const Profile profile = profile_of(e);
-    if (keeps_v || keeps_w) {
+    const auto placement = placement_of(profile);
+    if (placement && (keeps_v || keeps_w)) {
       const double cost = cost_at_end(profile, keeps_v ? v : w);
       return std::isfinite(cost) ? queue.push(e, cost, true) : queue.leave_out(e);
     }
-    const auto placement = placement_of(profile);
-    const auto cost = placement ? internal::ask(guarded, get_cost, profile, placement)
-                                : decltype(get_cost(profile, placement))();
-    cost ? queue.push(e, CGAL::to_double(*cost), false) : queue.leave_out(e);
+    const auto asked =
+        placement ? internal::ask(guarded, get_cost, profile, placement) : decltype(get_cost(profile, placement))();
+    const double cost = asked ? CGAL::to_double(*asked) : std::numeric_limits<double>::infinity();
+    std::isfinite(cost) ? queue.push(e, cost, false) : queue.leave_out(e);
   };
   const auto stroke = sculptor.stroke();
   const internal::Edit_trial<std::decay_t<decltype(guarded)>> trial(guarded); // draws for nothing are no edits
@@ -180,6 +184,7 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     return false;
   };
   Decimation_report report;
+  std::vector<Edge_index> around; // of the vertex that is kept
   for (const Edge_index e : mesh.edges())
     offer(e);
   const std::size_t edges_at_first = mesh.number_of_edges();
@@ -219,9 +224,14 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     ++report.collapsed;
     if constexpr (updates)
       internal::ask(guarded, [&] { get_cost.update_after_collapse(profile, kept); });
+    around.clear();
     for (const Vertex_index v : mesh.vertices_around_target(mesh.halfedge(kept)))
       for (const Halfedge_index g : mesh.halfedges_around_target(mesh.halfedge(v)))
-        offer(mesh.edge(g));
+        around.push_back(mesh.edge(g));
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end()); // those of the link are met from both ends
+    for (const Edge_index e : around)
+      offer(e);
   }
   return report;
 }

@@ -85,13 +85,10 @@ Repair_report repair(Mesh& mesh, const Repair_parameters& parameters = {}) {
   if (!internal::inconsistent_elements(mesh).empty())
     throw Error("cannot repair: the half-edges of the mesh contradict each other; give its points and faces as a "
                 "Face_soup");
-  Face_soup result;
-  Mesh copy;
-  if (mesh.has_garbage()) { // removed vertices are no points
-    copy = mesh;
-    copy.collect_garbage();
-  }
-  Repair_report report = internal::repaired(face_soup(mesh.has_garbage() ? copy : mesh), parameters, result);
+  Face_soup soup = face_soup(mesh), result;
+  if (mesh.has_garbage()) // removed vertices are no points
+    internal::keep_points(soup, mesh.vertices());
+  Repair_report report = internal::repaired(soup, parameters, result);
   // A list of faces does not know that they are open: the mesh that is made of it has them sewn.
   if (const std::size_t seams = report.is_repaired() ? internal::open_seams(mesh).size() : 0; seams != 0)
     report.steps.insert(report.steps.begin(),

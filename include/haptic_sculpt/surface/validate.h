@@ -193,14 +193,15 @@ Validity_report validate_soup(const Face_soup& soup, double delta = 0,
   return report;
 }
 
-/// The points and faces of a mesh. Points keep the indices of their vertices, removed ones included; faces close up.
+/// The points and faces of a mesh. Points keep the indices of their vertices, removed ones included, which are at the
+/// origin; faces close up.
 /// \param face_name if given, receives the index of each face
 /// \pre the connectivity of the mesh is consistent
 template <class Mesh>
 Face_soup face_soup(const Mesh& mesh, std::vector<Face_soup::Index>* face_name = nullptr) {
   using Index = Face_soup::Index;
   Face_soup soup;
-  soup.points.resize(mesh.number_of_vertices() + mesh.number_of_removed_vertices());
+  soup.points.resize(mesh.number_of_vertices() + mesh.number_of_removed_vertices(), Face_soup::Point_3(0, 0, 0));
   for (const auto v : mesh.vertices()) {
     const auto& p = mesh.point(v);
     soup.points[v] = Face_soup::Point_3(p.x(), p.y(), p.z());

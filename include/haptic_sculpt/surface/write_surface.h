@@ -117,18 +117,10 @@ template <class Mesh>
 Face_soup compacted(const Mesh& mesh, const Write_parameters& parameters) {
   Face_soup soup = face_soup(mesh);
   const auto order = written_order(mesh, parameters);
-  std::vector<Face_soup::Index> place(soup.points.size());
-  std::vector<Face_soup::Point_3> points;
-  points.reserve(order.size());
-  for (const auto v : order) {
+  for (const auto v : order)
     if (!soup.is_finite(v))
       throw Write_error("vertex " + std::to_string(std::size_t(v)) + " has a coordinate that is not finite");
-    place[v] = static_cast<Face_soup::Index>(points.size());
-    points.push_back(soup.points[v]);
-  }
-  for (Face_soup::Index& corner : soup.corners)
-    corner = place[corner];
-  soup.points = std::move(points);
+  keep_points(soup, order);
   for (const auto& attribute : vertex_attributes(mesh)) {
     soup.attributes.push_back({attribute.name, attribute.type, {}});
     for (const auto v : order)

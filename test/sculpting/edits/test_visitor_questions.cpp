@@ -237,3 +237,26 @@ BOOST_AUTO_TEST_CASE(edits_within_a_change_are_refused) {
   };
   BOOST_TEST((edit_all(true) == edit_all(false)));
 }
+
+// What is refused within a change leaves what the call under way gives back as it would be.
+BOOST_AUTO_TEST_CASE(an_edit_that_a_visitor_tries_by_value_is_refused_and_leaves_what_is_given_back) {
+  const Edit outer = Edit::of(Edit_kind::move, {3, 0, 0}, {0.1, 0.2, 2});
+  for (const bool is_nowhere : {false, true}) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(1, 0.2)), other = mesh;
+    const Mesh::Point p = is_nowhere ? mesh.point(Vertex_index(7)) : Mesh::Point(9, 9, 9);
+    Asked_sculptor sculptor(mesh);
+    int refused = 0;
+    sculptor.visitor().ask = [&] {
+      BOOST_CHECK_THROW(sculptor.apply(Edit::of(Edit_kind::move, {7, 0, 0}, {p.x(), p.y(), p.z()})), Reentrant_call);
+      ++refused;
+    };
+    const auto made = sculptor.apply(outer);
+    BOOST_TEST(refused == 1);
+    const auto expected = Sculptor<Mesh>(other).apply(outer);
+    BOOST_TEST((made.edit.kind == Edit_kind::move && expected.edit.kind == Edit_kind::move));
+    BOOST_TEST(made.edit.vertices == expected.edit.vertices);
+    BOOST_TEST(made.edit.point == expected.edit.point);
+    BOOST_TEST((made.edit.legs == expected.edit.legs));
+    BOOST_TEST(mesh.point(Vertex_index(3)) == other.point(Vertex_index(3)));
+  }
+}

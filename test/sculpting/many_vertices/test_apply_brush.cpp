@@ -208,6 +208,8 @@ BOOST_AUTO_TEST_CASE(dabs_that_cannot_be_made_change_nothing) {
   for (const double y : {nan, inf})
     BOOST_CHECK_EXCEPTION(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 1, 1, Vector_3(0, y, 1)}}), Out_of_range,
                           names("the direction of a dab"));
+  BOOST_CHECK_EXCEPTION(apply_brush(sculptor, Dabs{{Brush_kind::pinch, top, 1, 1, Vector_3(0, -0.0, 0)}}),
+                        Invalid_parameter, names("the direction of a dab must not be 0"));
   for (const double part : {nan, -0.5, 1.5})
     BOOST_CHECK_EXCEPTION(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 1, 1, {}}},
                                       boost::static_property_map<double, Vertex_index>(part)),

@@ -15,13 +15,36 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 using haptic_sculpt::Policy_optional;
 using haptic_sculpt::Sculptor;
 using meshes::Mesh;
+
+namespace {
+
+/// Compares where the points of a profile are with where they were when it was made.
+struct Watching_policy {
+  using Update_tag = CGAL::Tag_true;
+  int* moved;
+  template <class... Others>
+  void initialize(const Mesh&, const Others&...) const {}
+  template <class Profile, class Placement>
+  Policy_optional<double> operator()(const Profile& profile, const Placement&) const {
+    return Policy_optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
+  }
+  template <class Profile>
+  void update_after_collapse(const Profile& profile, Mesh::Vertex_index) const {
+    const auto* const now = profile.surface_mesh().points().data() + std::size_t(profile.v0());
+    *moved += &profile.p0() != now;
+  }
+};
+
+} // namespace
 
 BOOST_AUTO_TEST_SUITE(decimation)
 
@@ -138,30 +161,74 @@ BOOST_AUTO_TEST_CASE(policies_may_not_edit) {
     }
 }
 
-// An edge without a cost stays, whether an end of it has to stay or not.
+// An edge without a cost stays, whether an end of it has to stay or not; what is not finite is none.
 BOOST_AUTO_TEST_CASE(what_has_no_cost_is_not_collapsed_beside_constrained_edges_either) {
-  Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
-  const auto fixed = *mesh.edges().begin();
-  auto map = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
-  map[fixed] = true;
-  const std::set<Mesh::Vertex_index> ends{mesh.vertex(fixed, 0), mesh.vertex(fixed, 1)};
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  for (const Policy_optional<double>& none :
+       {Policy_optional<double>(), Policy_optional<double>(nan), Policy_optional<double>(infinity)}) {
+    Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+    const auto fixed = *mesh.edges().begin();
+    auto map = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+    map[fixed] = true;
+    const std::set<Mesh::Vertex_index> ends{mesh.vertex(fixed, 0), mesh.vertex(fixed, 1)};
+    Sculptor<Mesh> sculptor(mesh);
+    const auto cost = [&](const auto& profile, const Policy_optional<meshes::Point_3>&) {
+      return ends.count(profile.v0()) + ends.count(profile.v1()) != 0
+                 ? none
+                 : Policy_optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
+    };
+    std::size_t asked = 0;
+    const auto stop = [&](double of, const auto& profile, std::size_t, std::size_t) {
+      asked += !std::isfinite(of) || ends.count(profile.v0()) + ends.count(profile.v1()) != 0;
+      return false;
+    };
+    const auto report = haptic_sculpt::decimate(
+        sculptor, stop,
+        CGAL::parameters::get_cost(cost).get_placement(SMS::Midpoint_placement<Mesh>()).edge_is_constrained_map(map));
+    BOOST_TEST(report.collapsed > 5u);
+    BOOST_TEST(asked == 0u);
+    BOOST_TEST(haptic_sculpt::validate(mesh).is_valid());
+  }
+}
+
+// A policy asks for each edge anew where something about it has changed, and only once.
+BOOST_AUTO_TEST_CASE(no_edge_is_asked_of_twice_between_two_collapses) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.1));
   Sculptor<Mesh> sculptor(mesh);
-  const auto cost = [&](const auto& profile, const Policy_optional<meshes::Point_3>&) {
-    return ends.count(profile.v0()) + ends.count(profile.v1()) != 0
-               ? Policy_optional<double>()
-               : Policy_optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
+  std::set<Mesh::Edge_index> asked;
+  bool is_of_stop = false; // the edge that is to be collapsed, whose index may be used again
+  int twice = 0, collapses = 0;
+  const auto cost = [](const auto& profile, const auto&) {
+    return Policy_optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
   };
-  std::size_t asked = 0;
-  const auto stop = [&](double of, const auto& profile, std::size_t, std::size_t) {
-    asked += !std::isfinite(of) || ends.count(profile.v0()) + ends.count(profile.v1()) != 0;
-    return false;
+  const SMS::Midpoint_placement<Mesh> midpoint;
+  const auto placement = [&](const auto& profile) {
+    if (!std::exchange(is_of_stop, false))
+      twice += !asked.insert(mesh.edge(profile.v0_v1())).second;
+    return midpoint(profile);
   };
+  haptic_sculpt::decimate(
+      sculptor,
+      [&](const auto&, const auto&, std::size_t, std::size_t now) {
+        ++collapses, asked.clear(), is_of_stop = true;
+        return now < 300;
+      },
+      CGAL::parameters::get_cost(cost).get_placement(placement));
+  BOOST_TEST(collapses > 50);
+  BOOST_TEST(twice == 0);
+}
+
+// Its profile refers to the points.
+BOOST_AUTO_TEST_CASE(what_a_policy_is_told_of_stays_where_it_is_also_where_no_garbage_is_used_again) {
+  int moved = 0;
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.1));
+  mesh.set_recycle_garbage(false);
+  Sculptor<Mesh> sculptor(mesh);
   const auto report = haptic_sculpt::decimate(
-      sculptor, stop,
-      CGAL::parameters::get_cost(cost).get_placement(SMS::Midpoint_placement<Mesh>()).edge_is_constrained_map(map));
-  BOOST_TEST(report.collapsed > 5u);
-  BOOST_TEST(asked == 0u);
-  BOOST_TEST(haptic_sculpt::validate(mesh).is_valid());
+      sculptor, [](const auto&, const auto&, std::size_t, std::size_t now) { return now < 100; },
+      CGAL::parameters::get_cost(Watching_policy{&moved}).get_placement(SMS::Midpoint_placement<Mesh>()));
+  BOOST_TEST(report.collapsed > 50u);
+  BOOST_TEST(moved == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

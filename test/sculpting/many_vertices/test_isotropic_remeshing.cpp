@@ -292,3 +292,19 @@ BOOST_AUTO_TEST_CASE(a_mesh_that_others_have_opened_is_not_remeshed) {
   BOOST_CHECK_THROW(isotropic_remeshing(sculptor, 0.1), Mesh_changed);
   BOOST_CHECK_THROW(isotropic_remeshing(std::vector<Face_index>{Face_index(20)}, sculptor, 0.1), Mesh_changed);
 }
+
+// Beside a vertex that has taken in eight others an edge is offered as often.
+BOOST_AUTO_TEST_CASE(an_edge_that_is_offered_several_times_comes_once) {
+  const Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(1, 0.1));
+  const haptic_sculpt::internal::Scaled_points<Mesh> points(mesh, 0.5, {mesh.faces().begin(), mesh.faces().end()});
+  for (const bool longest_first : {false, true}) {
+    haptic_sculpt::internal::Edge_queue<Mesh> queue(mesh, points, longest_first);
+    for (int times = 0; times < 3; ++times)
+      for (const Edge_index e : mesh.edges())
+        queue.push(e, points.squared_length(e));
+    std::set<Edge_index> met;
+    for (auto entry = queue.pop(); entry.edge.is_valid(); entry = queue.pop())
+      BOOST_TEST(met.insert(entry.edge).second);
+    BOOST_TEST(met.size() == mesh.number_of_edges());
+  }
+}

@@ -42,17 +42,25 @@ public:
   void keep_journal(Journal* journal) { journal_ = journal; } ///< nullptr: none
   Journal* journal() const { return journal_; }               ///< that is kept now
 
-  /// What follows is one step of undo; the stroke under way ends.
+  /// What follows is one step of undo; the stroke under way ends. \throw Reentrant_call, and nothing has changed
   void begin_stroke() {
+    check_nobody_asks();
     end_stroke();
     stroke_.emplace(sculptor_->stroke());
     add(Edit::of(Edit_kind::stroke));
   }
-  /// Of the stroke under way, if there is one.
+  /// Of the stroke under way, if there is one. \pre not is_asked()
   void end_stroke() {
     if (stroke_)
       add(Edit::of(Edit_kind::end));
     stroke_.reset();
+  }
+  /// Whether a function of the caller's runs now, in the middle of a call: then no stroke may begin or end.
+  bool is_asked() const { return internal::Sculptor_access::guarded(*sculptor_).is_asking(); }
+  /// \throw Reentrant_call where that is so
+  void check_nobody_asks() const {
+    if (is_asked())
+      throw Reentrant_call();
   }
 
   /// \pre it is no stroke and no end
@@ -63,6 +71,7 @@ public:
   }
   /// Makes an edit and begins a stroke with it; the one under way ends. Where it is refused, or throws, there is none.
   Edited make_in_stroke(const Edit& wanted) {
+    check_nobody_asks();
     end_stroke();
     std::optional<typename Sculptor::Stroke_type> begun(sculptor_->stroke());
     auto made = attempt(wanted);

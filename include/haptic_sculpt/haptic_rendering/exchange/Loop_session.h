@@ -79,10 +79,11 @@ public:
   }
 
   /// Lets go, and what is done is in the journal. Tasks under way, and what waits for them, are answered: not done.
-  /// What is still in the queue waits there for another session. To be called after the last tick.
+  /// What is still in the queue waits there for another session. To be called after the last tick. \throw
+  /// Reentrant_call, and nothing has changed
   void end() {
-    answer_what_waits();
     loop_->tool().let_go();
+    answer_what_waits();
     if (journal_ != nullptr)
       journal_->end_tick(ticks_++);
   }
@@ -186,10 +187,12 @@ private:
     case Kind::zoom:
       loop_->zoom(command.factor);
       break;
-    case Kind::restart: // of another fault: who asked has not seen this one
-      has_told_overrun_ = is_overrun_seen();
+    case Kind::restart: { // of another fault: who asked has not seen this one
+      const bool has_told = is_overrun_seen();
       loop_->restart();
+      has_told_overrun_ = has_told;
       break;
+    }
     case Kind::task:
       if (command.task == nullptr)
         throw Error("the command is of the kind `task`, and has none");

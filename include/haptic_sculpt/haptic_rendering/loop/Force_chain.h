@@ -22,9 +22,10 @@ public:
   }
 
   /// The force of this tick, N; once a tick. \param wanted N \param way of the handle since the last tick, m
-  Eigen::Vector3d follow(const Eigen::Vector3d& wanted, double way) {
+  /// \param elapsed since then, s: of what is more than a tick the slew limit counts one
+  Eigen::Vector3d follow(const Eigen::Vector3d& wanted, double way, double elapsed) {
     ramp_ = next_ramp();
-    const double change = limits_.slew * tick_ + change_of_way_ * way;
+    const double change = limits_.slew * std::fmin(tick_, elapsed) + change_of_way_ * way;
     const Eigen::Vector3d& followed = slew_.follow(clamped(wanted, limits_.largest), change);
     return ramp_ * clamped(followed + burst_.next(), limits_.largest);
   }

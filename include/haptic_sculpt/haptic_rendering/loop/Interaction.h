@@ -85,10 +85,18 @@ public:
     render_wanted(side_.step().norm());
   }
 
-  /// Ends a tick: after a fault the force is what is left of the last one.
+  /// While a force fades readings are not followed, but a stall counts. \param elapsed since the last one, s
+  void let_pass(double elapsed) {
+    if (elapsed > watchdog_.limits().stall_time)
+      elapsed_ = elapsed;
+  }
+
+  /// Ends a tick: after a fault the force is what is left of the last one; none where the device has let go meanwhile,
+  /// by its own timeout: what came back would push.
   void end_tick() {
     if (watchdog_.fault() != Loop_fault::none) {
-      rendered_ = side_.fade_out(elapsed_);
+      const bool has_let_go = watchdog_.fault() == Loop_fault::stall || elapsed_ > watchdog_.limits().stall_time;
+      rendered_ = side_.fade_out(has_let_go ? std::numeric_limits<double>::infinity() : elapsed_);
       if (watchdog_.fault() != Loop_fault::late) // no reading is followed any more, and a stall counts once
         elapsed_ = 0;
       spring_.setZero();
@@ -134,7 +142,7 @@ private:
 
   /// \param way of the handle that made it what it is, m
   void render_wanted(double way) {
-    rendered_ = side_.render(wanted_, way);
+    rendered_ = side_.render(wanted_, way, elapsed_);
     if (rendered_.is_overloaded)
       watchdog_.report(Loop_fault::torque);
     if (!rendered_.is_finite)

@@ -41,10 +41,12 @@ public:
     tick_.is_new_fault = false;
     if (tick_.fault == Loop_fault::none)
       attempt([&] { run(reading); });
-    if (tick_.fault == Loop_fault::none && interaction_.fault() != Loop_fault::none) {
-      tick_.fault = interaction_.fault(), tick_.is_new_fault = true;
-      attempt([&] { tool_.let_go(); });
-    }
+    else
+      interaction_.let_pass(reading.elapsed);
+    if (tick_.fault == Loop_fault::none && interaction_.fault() != Loop_fault::none)
+      tick_.fault = interaction_.fault(), tick_.is_new_fault = has_to_let_go_ = true;
+    if (has_to_let_go_) // where a tick is made within a call of the caller's, that goes on to its end
+      attempt([&] { tool_.let_go(), has_to_let_go_ = false; });
     interaction_.end_tick();
     if (tick_.fault != Loop_fault::none) {
       const Eigen::Vector3d held = tick_.tool.proxy;
@@ -73,22 +75,14 @@ public:
   /// that no tick has said yet is not over by that: the next tick says it. Under an open clutch a probe stays where it
   /// is; where a vertex was in hand the tool goes on from where the handle is.
   void restart() {
-    const internal::Rounding_to_nearest rounding;
-    const Loop_fault unsaid = tick_.fault == Loop_fault::none ? interaction_.fault() : Loop_fault::none;
-    interaction_.restart(), tool_.let_go();
-    has_place_ = has_place_ && is_clutch_open_ && tool_.holds_probe(); // it goes on from there
-    const Tool_step last = std::exchange(tick_, Haptic_tick()).tool;
-    tick_.tool.target = tick_.tool.proxy = last.proxy;
-    zoom_ = 1, is_map_due_ = is_clutch_open_;
-    if (unsaid != Loop_fault::none)
-      interaction_.report(unsaid);
-    else
-      failure_[0] = '\0';
+    tool_.let_go();
+    begin_anew();
   }
 
   /// \name Clutch and zoom
   /// Between two ticks, in the thread that calls tick(). What is held stays in hand, where it is, and the spring begins
-  /// again at 0 there: the force goes to 0 as fast as the slew limit lets it. The home of the map stays.
+  /// again at 0 there: the force goes to 0 as fast as the slew limit lets it; under an open clutch a burst ends at
+  /// once. The home of the map stays.
   ///@{
 
   /// Open: the handle moves alone, and the button waits. Closed again: the handle goes on from where the tool is.
@@ -114,7 +108,7 @@ public:
   void enter(Sculptor& sculptor, const Workspace_map& map) {
     tool_.enter(sculptor, map);
     sculptor_ = &sculptor, map_ = map, zoom_ = 1;
-    restart();
+    begin_anew();
     tick_.tool = Tool_step(), has_place_ = false;
   }
 
@@ -151,7 +145,7 @@ private:
   Debounced_button button_;
   Haptic_tick tick_;
   std::array<char, 256> failure_{};
-  bool is_clutch_open_ = false, is_map_due_ = false, has_place_ = false;
+  bool is_clutch_open_ = false, is_map_due_ = false, has_place_ = false, has_to_let_go_ = false;
   double zoom_ = 1;                                 ///< asked for since the map was made
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero(); ///< of the tool in the last tick, in the scene
 
@@ -160,6 +154,20 @@ private:
   Eigen::Vector3d tool_place(const Eigen::Vector3d& handle) const {
     const auto held = tool_.place();
     return held ? *held : has_place_ ? place_ : map_.to_scene(handle);
+  }
+
+  void begin_anew() {
+    const internal::Rounding_to_nearest rounding;
+    const Loop_fault unsaid = tick_.fault == Loop_fault::none ? interaction_.fault() : Loop_fault::none;
+    interaction_.restart(), has_to_let_go_ = false;
+    has_place_ = has_place_ && is_clutch_open_ && tool_.holds_probe(); // it goes on from there
+    const Tool_step last = std::exchange(tick_, Haptic_tick()).tool;
+    tick_.tool.target = tick_.tool.proxy = last.proxy;
+    zoom_ = 1, is_map_due_ = is_clutch_open_;
+    if (unsaid != Loop_fault::none)
+      interaction_.report(unsaid);
+    else
+      failure_[0] = '\0';
   }
 
   void run(const Reading& reading) {

@@ -32,9 +32,9 @@ public:
   const Eigen::Vector3d& velocity() const { return handle_.velocity(); }      ///< of the handle, low-passed, m/s
   const Eigen::Vector3d& effort_step() const { return handle_.joint_step(); } ///< what efforts work on, rad
 
-  /// \param wanted N \param way of the handle that made it, m
-  const Rendered_force& render(const Eigen::Vector3d& wanted, double way) {
-    return renderer_.render(handle_, wanted, way);
+  /// \param wanted N \param way of the handle that made it, m \param elapsed since the last tick, s
+  const Rendered_force& render(const Eigen::Vector3d& wanted, double way, double elapsed) {
+    return renderer_.render(handle_, wanted, way, elapsed);
   }
   double next_ramp() const { return renderer_.next_ramp(); } ///< share of the force since the start, in the next tick
   Rendered_force fade_out(double elapsed) { return renderer_.fade_out(elapsed); } ///< after a fault

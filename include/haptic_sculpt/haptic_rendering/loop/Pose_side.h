@@ -65,9 +65,9 @@ public:
   const Eigen::Vector3d& velocity() const { return velocity_.value(); }    ///< of the handle, low-passed, m/s
   const Eigen::Vector3d& effort_step() const { return step_; }             ///< what efforts work on, m
 
-  /// \param wanted N \param way of the handle that made it, m
-  const Rendered_force& render(const Eigen::Vector3d& wanted, double way) {
-    last_.force = last_.interaction_torque = chain_.follow(wanted, way);
+  /// \param wanted N \param way of the handle that made it, m \param elapsed since the last tick, s
+  const Rendered_force& render(const Eigen::Vector3d& wanted, double way, double elapsed) {
+    last_.force = last_.interaction_torque = chain_.follow(wanted, way, elapsed);
     if (!last_.force.allFinite())
       last_ = Rendered_force(), last_.is_finite = false;
     return last_;

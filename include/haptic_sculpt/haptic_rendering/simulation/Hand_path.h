@@ -22,7 +22,8 @@ public:
   using Error::Error;
 };
 
-/// Where a hand wants to be, and what it does with the button. SI units, axes of the device; linear between rows.
+/// Where a hand wants to be, and what it does with the button. SI units, axes of the device; linear between rows. What
+/// was moved from is only to be assigned to, or destroyed.
 class Hand_path {
 public:
   /// m and s: whoever writes more means another unit.

@@ -165,6 +165,8 @@ public:
       found.add(Axis_obstacle::Kind::delta, {f.corners[0], f.corners[1], f.corners[2], f.corners[0]});
   }
 
+  bool may_meet(const Axis_item& f, const Axis_item& g) const { return !are_side_by_side(f, g, shared_corners(f, g)); }
+
   void decide_pair(const Axis_item& f, const Axis_item& g, Axis_findings& found) const {
     const unsigned shared_of_f = shared_corners(f, g);
     if (are_side_by_side(f, g, shared_of_f))

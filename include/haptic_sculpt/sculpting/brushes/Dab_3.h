@@ -35,7 +35,7 @@ struct Dab_3 {
   typename Kernel::Point_3 centre; ///< on the surface, or near it
   double radius;   ///< >= 0, in the unit of the coordinates; 0 touches nothing
   double strength; ///< a length or a share, as the kind says; negative: the other way
-  std::optional<typename Kernel::Vector_3> direction = {}; ///< of any length; else the mean normal there
+  std::optional<typename Kernel::Vector_3> direction = {}; ///< of any length but 0; else the mean normal there
 
   /// The square of how far a point is from the centre, in radii.
   double squared_share(const typename Kernel::Point_3& p) const {

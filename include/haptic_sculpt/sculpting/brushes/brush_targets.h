@@ -59,6 +59,8 @@ void check_dab(const Dab_3<Kernel>& dab) {
   if (!(dab.radius >= 0))
     throw Invalid_parameter("the radius of a dab must be a length >= 0, not " + number(dab.radius));
   check_range("the radius of a dab", dab.radius);
+  if (dab.direction && *dab.direction == CGAL::NULL_VECTOR)
+    throw Invalid_parameter("the direction of a dab must not be 0; leave it out for the mean normal");
   if (dab.direction)
     for (const double x : {dab.direction->x(), dab.direction->y(), dab.direction->z()})
       check_range("the direction of a dab", x);
@@ -126,8 +128,8 @@ Point gone(const Point& p, const Vector& way) {
 /// \param mask a readable property map from vertices to how much they take part, from 0 to 1
 /// \param inside_out whether the normals of the component point into the solid, as Sculptor::is_inside_out() says: a
 /// dab that inflates goes the other way then
-/// \throw Invalid_parameter where the mask is not from 0 to 1, or the radius no length; Out_of_range. Cost: linear in
-/// the edges of `vertices`.
+/// \throw Invalid_parameter where the mask is not from 0 to 1, the radius no length, or the direction 0; Out_of_range.
+/// Cost: linear in the edges of `vertices`.
 template <class Mesh, class Kernel, class Target_map, class Mask_map>
 void fill_brush_targets(const std::vector<typename Mesh::Vertex_index>& vertices, const Mesh& mesh,
                         const Dab_3<Kernel>& dab, Target_map targets, const Mask_map& mask, bool inside_out = false) {

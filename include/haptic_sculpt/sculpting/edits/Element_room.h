@@ -13,7 +13,7 @@ namespace haptic_sculpt::internal {
 /// grows in the middle of it.
 ///
 /// Surface_mesh does not say how much room it has, so what was asked for last is kept here. Cost: a few comparisons;
-/// where there is no room all arrays grow by half.
+/// arrays without room grow by half.
 template <class Mesh, class Broad_phase>
 class Element_room {
 public:
@@ -45,11 +45,15 @@ public:
     const Elements needed = {slots(mesh_->num_vertices(), born.vertices, free.vertices),
                              slots(mesh_->num_edges(), born.edges, free.edges),
                              slots(mesh_->num_faces(), born.faces, free.faces)};
+    // Points stay where they are where none is born: a caller's policy may hold references to them.
+    const auto room = [](std::size_t need, std::size_t has, std::size_t all, std::size_t limit) {
+      return need > has ? std::max(need, std::min(grown(all), limit)) : has;
+    };
     if (needed.vertices > room_.vertices || needed.edges > room_.edges || needed.faces > room_.faces ||
         points() != points_)
-      reserve({std::max(needed.vertices, std::min(grown(mesh_->num_vertices()), most)),
-               std::max(needed.edges, std::min(grown(mesh_->num_edges()), most / 2)),
-               std::max(needed.faces, std::min(grown(mesh_->num_faces()), most))});
+      reserve({room(needed.vertices, room_.vertices, mesh_->num_vertices(), most),
+               room(needed.edges, room_.edges, mesh_->num_edges(), most / 2),
+               room(needed.faces, room_.faces, mesh_->num_faces(), most)});
     if (insertions > insertions_)
       reserve_insertions(std::max(insertions, usual_insertions));
     insertions_ -= insertions;

@@ -29,7 +29,8 @@ public:
                       std::is_same<Key, Edge_index>::value || std::is_same<Key, Face_index>::value,
                   "Sculptor::keep: the keys of the map must be vertices, halfedges, edges or faces of the mesh");
     if constexpr (std::is_same<Map, typename Mesh::template Property_map<Vertex_index, typename Mesh::Point>>::value)
-      if (map.data() == mesh_->points().data()) // else a value that is carried would take the place of a proven one
+      if (mesh_->num_vertices() != 0 &&
+          map.data() == mesh_->points().data()) // else a value that is carried would take the place of a proven one
         throw Invalid_parameter("keep() takes no map of where vertices are: edits and undo see to these");
     maps_.push_back(std::make_unique<Kept_map_of<Mesh, Map, Carry>>(map, std::move(carry)));
   }

@@ -70,6 +70,13 @@ public:
   void check_is_whole() const { writing_.check(); }
   /// The same of ways in that change anything. \throw Reentrant_call within a function of the caller's
   void check_may_change() const { writing_.check_may_change(); }
+  /// The same, and no element has come or gone: numbers of vertices are good. \throw Mesh_changed, too
+  void check_may_begin() const {
+    check_may_change();
+    watch_.check_counts();
+  }
+  /// Whether a function of the caller's runs now, in the middle of a call.
+  bool is_asking() const noexcept { return writing_.is_asking(); }
   /// In the middle of a call, as long as what is returned lives: functions of the caller's may look, and not edit.
   Write_state::Asking asking() { return Write_state::Asking(writing_); }
 
@@ -84,15 +91,16 @@ public:
   /// \pre arithmetic rounds to nearest \throw Unknown_vertex, Mesh_changed
   void hold(Vertex_index v, bool once) {
     check_is_whole();
+    if (v.is_valid() && hand_.holds(v, once)) // which compares counts
+      return;
+    watch_.check_counts();
     check_vertex(*mesh_, v);
-    if (!hand_.holds(v, once))
-      hand_.take(v, once, [this] { editor_.prepare_for_moves(); });
+    hand_.take(v, once, [this] { editor_.prepare_for_moves(); });
   }
   /// The same anew: without contacts, whoever is held.
   void grab(Vertex_index v) {
-    check_may_change();
+    check_may_begin();
     check_vertex(*mesh_, v);
-    watch_.check_counts();
     probe_.let_go();
     hand_.take(v, false, [this] { editor_.prepare_for_moves(); });
   }
@@ -144,6 +152,7 @@ public:
     const Rounding_to_nearest rounding;
     check_point("the target", target);
     check_is_whole();
+    watch_.check_counts();
     check_vertex(*mesh_, v);
     hand_.tell_where_it_is();
     if (std::exchange(asked_at_, changes()) != changes())
@@ -195,8 +204,8 @@ public:
 
   bool is_inside_out(Vertex_index v) {
     const Rounding_to_nearest rounding;
-    check_vertex(*mesh_, v);
     look_at_surface();
+    check_vertex(*mesh_, v);
     if (writing_.is_asking()) // within an undo of many changes no state on the way need be embedded
       return Inside_out_vertices<Mesh>(*mesh_).contain(v);
     return inside_out_.contain(v);

@@ -8,7 +8,7 @@
 namespace haptic_sculpt::internal {
 
 /// Edges by length. Those that have died, or have another length than when they were put in, are left out: their slots
-/// may have been used again, and what is new is put in anew.
+/// may have been used again, and what is new is put in anew. An edge that was put in several times comes once.
 template <class Mesh>
 class Edge_queue {
 public:
@@ -27,10 +27,12 @@ public:
   /// The next one; its edge is the null index when there is none.
   Entry pop() {
     while (!queue_.empty()) {
-      const Entry entry{sign_ * queue_.top().length, queue_.top().edge};
-      queue_.pop();
-      if (!mesh_->is_removed(entry.edge) && points_->squared_length(entry.edge) == entry.length)
-        return entry;
+      const Entry next = queue_.top();
+      while (!queue_.empty() && queue_.top().edge == next.edge && queue_.top().length == next.length)
+        queue_.pop();
+      const double length = sign_ * next.length;
+      if (!mesh_->is_removed(next.edge) && points_->squared_length(next.edge) == length)
+        return {length, next.edge};
     }
     return {0, Edge_index()};
   }

@@ -21,8 +21,13 @@ public:
   using Impacts = Star_impacts<Mesh, typename Traits::Impact_3>;
 
   explicit Narrow_phase(const Traits& traits)
-    : vertex_face_(traits.vertex_face_sweep_3_object()), edge_edge_(traits.edge_edge_sweep_3_object())
-    , face_vertex_(traits.face_vertex_sweep_3_object()), compare_time_(traits.compare_time_3_object()) {}
+      : traits_(traits)
+      , vertex_face_(traits_.vertex_face_sweep_3_object())
+      , edge_edge_(traits_.edge_edge_sweep_3_object())
+      , face_vertex_(traits_.face_vertex_sweep_3_object())
+      , compare_time_(traits_.compare_time_3_object()) {}
+  Narrow_phase(const Narrow_phase&) = delete; // what the traits made may refer to them
+  Narrow_phase& operator=(const Narrow_phase&) = delete;
 
   /// Whether nothing is touched on the closed way from source to target.
   bool is_free(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Coordinates& source,
@@ -72,6 +77,7 @@ private:
   using Point_3 = typename Mesh::Point;
   using Compare_time = typename In_set_mode<typename Traits::Compare_time_3>::type;
 
+  Traits traits_;
   typename In_set_mode<typename Traits::Vertex_face_sweep_3>::type vertex_face_;
   typename In_set_mode<typename Traits::Edge_edge_sweep_3>::type edge_edge_;
   typename In_set_mode<typename Traits::Face_vertex_sweep_3>::type face_vertex_;

@@ -84,6 +84,8 @@ protected:
 
   /// \param mesh has to outlive this. Cost: reads its points once
   explicit Broad_phase_base(const Mesh_& mesh) : mesh_(&mesh), scale_(internal::Box_scale::of(mesh)) {}
+  Broad_phase_base(const Broad_phase_base&) = delete; // a Sculptor makes its own
+  Broad_phase_base& operator=(const Broad_phase_base&) = delete;
 
   const Mesh_& mesh() const { return *mesh_; } ///< the one given
   /// By what coordinates are multiplied in the boxes of nodes: that of the mesh when this was made.

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace haptic_sculpt {
@@ -87,6 +88,20 @@ struct Face_soup {
 };
 
 namespace internal {
+
+/// Leaves the points of these vertices alone, in this order. \pre no face has another corner
+template <class Vertices>
+void keep_points(Face_soup& soup, const Vertices& vertices) {
+  std::vector<Face_soup::Index> place(soup.points.size());
+  std::vector<Face_soup::Point_3> points;
+  for (const auto v : vertices) {
+    place[v] = static_cast<Face_soup::Index>(points.size());
+    points.push_back(soup.points[v]);
+  }
+  for (Face_soup::Index& corner : soup.corners)
+    corner = place[corner];
+  soup.points = std::move(points);
+}
 
 /// \throw Error where a corner is no index of a point
 inline void check_corners(const Face_soup& soup) {
