@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 
 namespace {
@@ -134,8 +135,12 @@ int print_figures(int argument_count, char** arguments) {
   app.add_option("SAMPLES.txt", file, "Where the samples of the first one go, for examples/plot_device_workspace.py")
       ->check([](const std::string& name) -> std::string {
         std::error_code none;
-        const bool is_device = std::filesystem::path(name).extension() == ".json" ||
-                               (std::filesystem::is_regular_file(name, none) && std::ifstream(name).peek() == '{');
+        std::string word;
+        if (std::filesystem::is_regular_file(name, none))
+          std::ifstream(name) >> std::setw(8) >> word;                 // no more of it is needed
+        const bool has_mark = word.compare(0, 3, "\xef\xbb\xbf") == 0; // of the order of bytes
+        const bool is_device =
+            std::filesystem::path(name).extension() == ".json" || word.compare(has_mark ? 3 : 0, 1, "{") == 0;
         return is_device ? "'" + name + "' would be replaced by samples; a device comes second" : "";
       });
   app.add_option("DEVICE.json", device, "With the keys of doc/use/device.md");

@@ -41,6 +41,13 @@ def draw_file(documentation, written_by, load, draw):
     except (LookupError, TypeError) as error:  # what is drawn has its name, but is something else
         parser.error(f"{arguments.file} is not what {written_by} has written: {error!r}")
     try:
-        figure.savefig(arguments.picture)
+        folder, name = os.path.split(arguments.picture)
+        whole = os.path.join(folder, f".new.{os.getpid()}.{name}")
+        try:
+            figure.savefig(whole, format=os.path.splitext(name)[1][1:] or "png")
+            os.replace(whole, arguments.picture)
+        finally:
+            if os.path.exists(whole):
+                os.unlink(whole)
     except (OSError, ValueError) as error:  # not all of them name a file
         parser.error(f"{arguments.picture}: {error}")

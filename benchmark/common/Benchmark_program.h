@@ -139,6 +139,8 @@ private:
   }
   /// \throw Wrong_use
   void refuse_report_over_input() const {
+    if (mesh_file_format(file_)) // maybe of a folder that is read
+      throw Wrong_use("'" + file_ + "' (--json) has the name of a mesh; give --json another name");
     std::error_code none;
     for (const CLI::Option* option : app_.get_options())
       for (const std::string& value : option->results())

@@ -75,9 +75,6 @@ def main():
     run = results.circumstances(options.folder)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True, trim_blocks=True, lstrip_blocks=True)
     parts = [(part, TITLES[part], findings(part, reports, options.answers)) for part in steps.PARTS]
-    for finding in (f for _, _, found in parts for f in found if options.pictures and f.picture and f.figure):
-        (options.pictures / f"{finding.picture}.png").write_bytes(figures.PICTURES[finding.figure])
-        print("picture:", options.pictures / f"{finding.picture}.png")
     page = environment.get_template("page.html.jinja").render(
         run=run, parts=parts, steps=rows_of_steps(options.folder, run["steps"]), broken=results.broken_promises(options.folder),
         failures=failing_cases.rows(options.folder, run["steps"]),
@@ -85,6 +82,11 @@ def main():
     target = options.folder / "index.html"
     target.with_suffix(".new").write_text(page)
     target.with_suffix(".new").replace(target)
+    for finding in (f for _, _, found in parts for f in found if options.pictures and f.picture and f.figure):
+        picture = options.pictures / f"{finding.picture}.png"
+        picture.with_suffix(".new").write_bytes(figures.PICTURES[finding.figure])
+        picture.with_suffix(".new").replace(picture)
+        print("picture:", picture)
     return 0
 
 

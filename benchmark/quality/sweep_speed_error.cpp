@@ -234,11 +234,14 @@ int main(int argc, char** argv) {
       "Folder that gets queries.txt, as sweep_queries reads them, and truth.txt, by the oracle; nothing is timed");
   Benchmark_program program("sweep_speed_error", app, "population");
   return program.run(argc, argv, [&](Promises& promises) {
-    std::ofstream asked, truth;
+    if (!folder.empty() && program.shard.text() != "0/1")
+      throw haptic_sculpt::benchmark::Wrong_use(
+          "--write-queries writes the queries of all populations: give it without --shard");
+    std::ofstream asked, truth; // answers to those that are there stay answers, until both are whole
     if (!folder.empty()) {
       std::error_code error; // that none can be made is said below
       std::filesystem::create_directories(folder, error);
-      asked.open(folder + "/queries.txt"), truth.open(folder + "/truth.txt");
+      asked.open(folder + "/queries.txt.unfinished"), truth.open(folder + "/truth.txt.unfinished");
       if (!asked || !truth)
         throw haptic_sculpt::Write_error("cannot write in " + folder);
     }
@@ -284,8 +287,15 @@ int main(int argc, char** argv) {
       std::fflush(stdout);
       report["populations"].push_back(entry);
     }
-    if (!folder.empty() && (!asked.flush() || !truth.flush())) // a full disk shows where buffers are emptied
-      throw haptic_sculpt::Write_error("cannot write in " + folder);
+    if (!folder.empty()) {
+      asked.close(), truth.close(); // a full disk shows where buffers are emptied
+      std::error_code error;
+      for (const char* const name : {"/queries.txt", "/truth.txt"})
+        if (asked && truth && !error)
+          std::filesystem::rename(folder + name + ".unfinished", folder + name, error);
+      if (!asked || !truth || error)
+        throw haptic_sculpt::Write_error("cannot write in " + folder);
+    }
     promises.add(ours_was_wrong, "every sweep agrees with the rational oracle", verdicts, wrong);
     return report;
   });

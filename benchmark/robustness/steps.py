@@ -6,7 +6,7 @@ VARIED = "--broad-phase box_tree,six_lists,all_faces --seed {seed} --dump {dump}
 
 STEPS = [
     Step("drags_and_edits", "robustness",
-         tiny=Effort("--hard --drags 30 --edits 30 --drags-on-large 2 --edits-on-large 1 --batch 10 --edit-batch 10 --dump {dump} --seed {seed}", shards=3),
+         tiny=Effort("--hard --drags 30 --edits 30 --drags-on-large 0 --edits-on-large 0 --batch 10 --edit-batch 10 --dump {dump} --seed {seed}", shards=3),
          quick=Effort("--hard --drags 2000 --edits 500 --drags-on-large 50 --edits-on-large 10 --dump {dump} --seed {seed}", 10, shards=2),
          full=Effort("--hard --drags 4200000 --edits 100000 --extreme 20000 --dump {dump} --seed {seed}", 480, shards=1024),
          with_meshes="--meshes {meshes}", with_repair="--repair"),

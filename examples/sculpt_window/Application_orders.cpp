@@ -140,7 +140,7 @@ void Application::obey(Order order) {
     quit();
     break;
   case Order::fit:
-    view_.fit(), frame();
+    view_.fit(), frame(), point();
     break;
   case Order::view_x:
     look({-1, 0, 0});
@@ -156,21 +156,27 @@ void Application::obey(Order order) {
     break;
   case Order::turn_left:
     camera.turn(-turn, 0, Eigen::Vector3d::Zero());
+    point();
     break;
   case Order::turn_right:
     camera.turn(turn, 0, Eigen::Vector3d::Zero());
+    point();
     break;
   case Order::turn_up:
     camera.turn(0, -turn, Eigen::Vector3d::Zero());
+    point();
     break;
   case Order::turn_down:
     camera.turn(0, turn, Eigen::Vector3d::Zero());
+    point();
     break;
   case Order::zoom_in:
     camera.magnify(1.25, {camera.width() / 2., camera.height() / 2.});
+    point();
     break;
   case Order::zoom_out:
     camera.magnify(0.8, {camera.width() / 2., camera.height() / 2.});
+    point();
     break;
   case Order::help:
     choices_.shows_help = !choices_.shows_help;

@@ -93,7 +93,7 @@ bool Application::act(const Action& action) {
     if (is_misplaced_)
       return true;
     const auto has = [&](const char* word) { return action.word.find(word) != std::string::npos; };
-    if (has("right") && !thread_.is_idle()) // it turns about what the mouse points at
+    if (has("right") && button_ < 0 && thread_.is_pick_waiting()) // it turns about what the mouse points at
       return false;
     on_press(has("right") ? 1 : has("middle") ? 2 : 0, has("shift"), has("ctrl"), has("alt"));
     return true;
@@ -113,12 +113,14 @@ bool Application::act(const Action& action) {
     return true;
   case Kind::orbit:
     view_.camera().turn(n[0] * EIGEN_PI / 180, n[1] * EIGEN_PI / 180, Eigen::Vector3d::Zero());
+    point();
     return true;
   case Kind::zoom:
     view_.camera().magnify(n[0], {view_.camera().width() / 2., view_.camera().height() / 2.});
+    point();
     return true;
   case Kind::fit:
-    view_.fit(), frame();
+    view_.fit(), frame(), point();
     return true;
   case Kind::tool:
     choose(static_cast<Tool>(action.which));

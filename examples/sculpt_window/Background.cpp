@@ -128,7 +128,7 @@ void Destroy_with_log::operator()(Model* model) const {
 std::string write_copy(const Save& saved, const std::string& path) {
   const Mesh mesh = saved.mesh();
   std::string lost = examples::write_mesh(path, mesh);
-  if (const std::string loss = examples::told_loss(saved.opened, path, mesh, saved.left_out); !loss.empty())
+  if (const std::string loss = examples::told_loss(saved.opened, path, mesh, saved.left_out, "is"); !loss.empty())
     lost += (lost.empty() ? "" : "; ") + loss;
   return lost;
 }

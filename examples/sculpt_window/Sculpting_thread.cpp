@@ -309,9 +309,13 @@ const Pointed& Sculpting_thread::pointed() const {
   return parts_->pointed;
 }
 
-bool Sculpting_thread::is_idle() const {
+bool Sculpting_thread::is_pick_waiting() const {
   const Parts& p = *parts_;
-  return has_done_all() && !(p.is_pick_due && p.may_pick()) && p.status.mouse == p.mouse.number();
+  return p.is_picking || (p.is_pick_due && p.may_pick());
+}
+
+bool Sculpting_thread::is_idle() const {
+  return has_done_all() && !is_pick_waiting() && parts_->status.mouse == parts_->mouse.number();
 }
 
 std::vector<Model*> Sculpting_thread::end() {

@@ -69,6 +69,7 @@ public:
 
   const Status& status();
   const Pointed& pointed() const; ///< what the mouse has pointed at last, as far as it is known
+  bool is_pick_waiting() const;   ///< it is not known what it points at now
   bool take(Seen_face& change);
   bool take(Report& report);
   /// Whether all that was asked for is done and in status(); a stroke is done when it waits for nothing.

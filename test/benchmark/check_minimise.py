@@ -9,9 +9,11 @@ import os
 import pathlib
 import random
 import select
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT, SCULPT, SEED, BLOCKED = pathlib.Path(sys.argv[1]), sys.argv[2], 3, 10
 
@@ -95,6 +97,32 @@ def killed(folder, mesh, script, faults):
         left = told.read()  # until nobody has it open any more
     if began != "begins\n" or left:
         faults.append(f"killed: what it has started tells '{began}', then '{left}'")
+
+
+def stopped(folder, mesh, lines, faults):
+    """By Ctrl-C, or when its time is up, it writes what the case is by then; also of many lines soon after."""
+    script, needed = folder / "long.script", "drag 3 0 0 0.125"
+    script.write_text("\n".join([*(lines * 800)[:20000], needed]) + "\n")
+    tries = folder / "tries"
+    tries.touch()
+    judge = f"""bash -c 'echo >> {tries}; grep -qxF "{needed}" {{script}}'"""
+    words = [sys.executable, ROOT / "benchmark/robustness/minimise", SCULPT, mesh, script, "--command", judge, "--exit", 0]
+    for name, options in (("by_time", ("--seconds", 0.2)), ("by_hand", ())):
+        before = tries.stat().st_size
+        going = subprocess.Popen([*map(str, words), "--out", folder / name, *map(str, options)],
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while name == "by_hand" and going.poll() is None and tries.stat().st_size < before + 3:
+            time.sleep(0.01)
+        if name == "by_hand":
+            going.send_signal(signal.SIGINT)
+        try:
+            out, err = going.communicate(timeout=100)
+        except subprocess.TimeoutExpired:
+            going.kill()
+            out, err = going.communicate()
+        left = (folder / f"{name}.script").read_text().splitlines() if going.returncode == 0 else []
+        if going.returncode != 0 or needed not in left or err:
+            faults.append(f"stopped {name}: exit {going.returncode}, {len(left)} lines, {out} {err[-500:]}")
 
 
 def places(folder, mesh, lines, faults):
@@ -186,6 +214,7 @@ def main():
             faults.append(f"a push that stays: exit {stays.returncode}, {small}, {stays.stderr}")
         wrong_use(folder, mesh, script, faults)
         killed(folder, mesh, script, faults)
+        stopped(folder, mesh, lines, faults)
         places(folder, mesh, lines, faults)
         shifts(folder, mesh, lines, faults)
         print(*faults, sep="\n")

@@ -497,6 +497,11 @@ def exit_codes(folder):
     """2 for what was given, 5 where the report cannot be written: before the work."""
     kept = folder / "kept.off"
     kept.write_text("kept")
+    same = folder / "grab.json"  # of the name of a report
+    same.symlink_to(kept)
+    cases = folder / "cases"
+    cases.mkdir()
+    (cases / "batch_7.off").write_text("kept")
     ticks = ["haptic_ticks", "--level", "2", "--ticks", "10"]
     mesh, script = folder / "grab.off", folder / "grab.script"
     mesh.write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
@@ -519,13 +524,15 @@ def exit_codes(folder):
                               (["hand_drags", "--level", "2", "--drags", "10", "--depth", "inf"], 2, "depth"),
                               (["hand_drags", "--level", "2", "--drags", "10", "--depth", "1e200"], 2, "depth"),
                               (["hand_drags", "--level", "2", "--drags", "10"], 0, "probe: 10 of 10 drags"),
-                              (["brush_dabs", "--mesh", str(kept), "--json", str(kept)], 2, "one file"),
+                              (["brush_dabs", "--mesh", str(kept), "--json", str(same)], 2, "one file"),
+                              (["hand_drags", "--json", str(folder / "part.off")], 2, "the name of a mesh"),
+                              (["robustness", "--dump", str(cases)], 2, "has cases already"),
                               (["hand_drags", "--json", str(folder / "nowhere/x.json")], 5, "cannot write")):
         done = subprocess.run([str(BUILD / "benchmark" / words[0]), *words[1:]], capture_output=True, text=True)
         expect(done.returncode == code and said in done.stdout + done.stderr, f"{words}: exit {done.returncode}, {done.stderr}")
     expect(kept.read_text() == "kept", "a report is written over a mesh")
-    with kept.open("w") as table:
-        done = subprocess.run([str(BUILD / "benchmark/axis_speed_error"), "--queries", "1", "--json", str(kept)],
+    with (folder / "table.txt").open("w") as table:
+        done = subprocess.run([str(BUILD / "benchmark/axis_speed_error"), "--queries", "1", "--json", table.name],
                               stdout=table, stderr=subprocess.PIPE, text=True)
     expect(done.returncode == 2 and "standard output" in done.stderr, f"a report over its own table: {done}")
 
@@ -536,7 +543,7 @@ def answers(out, folder):
     queries.mkdir()
     full = folder / "full"
     full.mkdir()
-    os.symlink("/dev/full", full / "truth.txt")
+    os.symlink("/dev/full", full / "truth.txt.unfinished")
     for words in (["--write-queries", str(full)], ["--json", "/dev/full"]):
         done = subprocess.run([str(BUILD / "benchmark/sweep_speed_error"), "--queries", "1", *words], capture_output=True, text=True)
         expect(done.returncode == 5 and "cannot write" in done.stderr, f"{words} where the disk is full: exit {done.returncode}, {done.stderr}")

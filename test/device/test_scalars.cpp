@@ -64,6 +64,33 @@ BOOST_AUTO_TEST_CASE(derivatives_by_automatic_differentiation_are_the_jacobian) 
   }
 }
 
+// Also where the place is level, and its sign is taken away.
+BOOST_AUTO_TEST_CASE(derivatives_of_the_inverses_live_on_at_a_height_of_zero) {
+  using Derived = Eigen::AutoDiffScalar<Eigen::Vector3d>;
+  const auto at = [](double x, double y, double z) {
+    return Device_vector<Derived>(Derived(x, 3, 0), Derived(y, 3, 1), Derived(z, 3, 2));
+  };
+  const Device_parameters<Derived> mirror(named_design<Derived>(Named_design::D3, Device_form::general));
+  const Device_parameters<Derived> ditetrahedral(named_design<Derived>(Named_design::D1, Device_form::ditetrahedral));
+  int compared = 0;
+  for (const double x : {-0.02, 0.015}) {
+    auto level = mirror_inverse(mirror, at(x, 0.01, 0.0)), near = mirror_inverse(mirror, at(x, 0.01, 1e-9));
+    auto other = ditetrahedral_inverse(ditetrahedral, at(x, 0.01, 0.0)),
+         beside = ditetrahedral_inverse(ditetrahedral, at(x, 0.01, 1e-9));
+    const auto compare = [&](auto& a, auto& b) {
+      for (int leg = 0; leg < 3; ++leg)
+        if (a.value_to_fill().leg_reaches[leg] && b.value_to_fill().leg_reaches[leg]) {
+          const Eigen::Vector3d slope = b.value_to_fill().plus[leg].derivatives();
+          BOOST_TEST((a.value_to_fill().plus[leg].derivatives() - slope).norm() <= 1e-5 * slope.norm());
+          BOOST_TEST(std::abs(slope[2]) > 1);
+          ++compared;
+        }
+    };
+    compare(level, near), compare(other, beside);
+  }
+  BOOST_TEST(compared > 3);
+}
+
 // Long links that fold back on the base have elbows that are near each other and far out: what they are rounded to
 // counts.
 BOOST_AUTO_TEST_CASE(the_closure_knows_how_far_the_elbows_are_rounded) {

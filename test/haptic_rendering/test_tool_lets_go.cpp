@@ -181,4 +181,57 @@ BOOST_AUTO_TEST_CASE(a_probe_that_is_not_carried_is_not_brought_where_a_vertex_i
   }
 }
 
+// By others: of what is in hand nothing is read where it may be no more.
+BOOST_AUTO_TEST_CASE(a_vertex_in_hand_is_not_looked_for_in_a_mesh_with_fewer_elements) {
+  for (const bool clears : {false, true})
+    for (int way = 0; way < 7; ++way)
+      BOOST_TEST_CONTEXT("clears " << clears << ", way " << way) {
+        Mesh mesh = ball;
+        Sculptor<Mesh> sculptor(mesh);
+        Pose_loop<Sculptor<Mesh>> loop(sculptor, map_of_tests, parameters_of_tests());
+        Tool<Sculptor<Mesh>> tool(sculptor, map_of_tests, 0.01, 0.001);
+        const Mesh::Vertex_index v(static_cast<Mesh::size_type>(mesh.number_of_vertices() - 1));
+        Pose_reading reading;
+        reading.position = map_of_tests.to_device(internal::vector_of(mesh.point(v))), reading.elapsed = 0.001;
+        loop.tick(reading);
+        if (way < 4) {
+          loop.tool().take(v);
+          loop.tick(reading);
+        } else {
+          tool.move(reading.position, 0), tool.move(reading.position, 1);
+          BOOST_REQUIRE(tool.holds_vertex());
+        }
+        loop.open_clutch(way == 1);
+        if (clears) {
+          mesh.clear();
+        } else {
+          mesh = meshes::to_mesh(meshes::tetrahedron());
+        }
+        switch (way) {
+        case 0:
+          BOOST_TEST((loop.tick(reading).fault == Loop_fault::error));
+          break;
+        case 1:
+          BOOST_TEST((loop.tick(reading).fault == Loop_fault::error));
+          break;
+        case 2:
+          BOOST_CHECK_THROW(loop.zoom(2), Mesh_changed);
+          break;
+        case 3:
+          BOOST_CHECK_THROW(loop.tool().place(), Mesh_changed);
+          break;
+        case 4:
+          BOOST_CHECK_THROW(tool.move(reading.position, 0), Mesh_changed);
+          break;
+        case 5:
+          BOOST_CHECK_THROW(tool.move(reading.position, 2), Mesh_changed);
+          break;
+        default:
+          BOOST_CHECK_THROW(tool.move(reading.position, 1), Mesh_changed);
+        }
+        if (way == 4 || way == 5)
+          BOOST_TEST(!tool.holds_vertex());
+      }
+}
+
 } // namespace

@@ -3,6 +3,12 @@
 
 namespace haptic_sculpt {
 
+namespace internal {
+template class Guarded_mesh<instantiated_once::Mesh, Box_tree_broad_phase<instantiated_once::Mesh>,
+                            Default_edit_visitor, Exact_sweep_traits<instantiated_once::Mesh>>;
+template class Axis_move<instantiated_once::Mesh>;
+} // namespace internal
+
 template class Sculptor<instantiated_once::Mesh>;
 template class Grab<Sculptor<instantiated_once::Mesh>>;
 template Validity_report validate<CGAL::Sequential_tag>(const instantiated_once::Mesh&, double, std::size_t);

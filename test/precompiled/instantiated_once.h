@@ -17,6 +17,12 @@ namespace instantiated_once {
 using Mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
 } // namespace instantiated_once
 
+namespace internal {
+extern template class Guarded_mesh<instantiated_once::Mesh, Box_tree_broad_phase<instantiated_once::Mesh>,
+                                   Default_edit_visitor, Exact_sweep_traits<instantiated_once::Mesh>>;
+extern template class Axis_move<instantiated_once::Mesh>;
+} // namespace internal
+
 extern template class Sculptor<instantiated_once::Mesh>;
 extern template class Grab<Sculptor<instantiated_once::Mesh>>;
 extern template Validity_report validate<CGAL::Sequential_tag>(const instantiated_once::Mesh&, double, std::size_t);

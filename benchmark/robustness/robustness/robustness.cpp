@@ -74,14 +74,21 @@ int main(int argc, char** argv) {
   app.add_flag("--hard", options.has_hard_meshes,
                "On meshes, too, that are an ulp thick, almost flat, nested, crumpled and so on");
   app.add_option("--dump", options.dump,
-                 "Folder for batches that break a promise: a mesh and a script, for `sculpt` and `minimise`. Drags are "
+                 "Folder without cases for batches that break a promise: a mesh and a script, for `sculpt` and "
+                 "`minimise`. Drags are "
                  "replayed to the bit; of mixed edits, where a vertex stays in hand meanwhile, most are");
   app.add_flag("--dump-all", options.dumps_all,
                "All batches are written there, and what has become of the mesh, NAME.end.off");
   benchmark::Benchmark_program program("robustness", app, "batch");
   return program.run(argc, argv, [&](benchmark::Promises& promises) {
-    if (!options.dump.empty())
+    if (!options.dump.empty()) {
       benchmark::check_folder(options.dump);
+      std::error_code none; // where it is not there yet
+      for (const auto& entry : std::filesystem::directory_iterator(options.dump, none))
+        if (entry.path().filename().string().compare(0, 6, "batch_") == 0)
+          throw benchmark::Wrong_use("'" + options.dump + "' (--dump) has cases already, such as " +
+                                     entry.path().filename().string() + "; give another folder");
+    }
     robustness::Run run(options, program.shard);
     if (!options.folder.empty())
       run.folder(); // first: one hears of its files before hours of the others

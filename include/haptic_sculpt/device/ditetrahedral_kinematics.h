@@ -15,10 +15,12 @@ template <class S> struct Wider { using type = S; };
 template <> struct Wider<float> { using type = double; };
 template <> struct Wider<double> { using type = long double; };
 
-/// -0 becomes 0, whatever the rounding mode, so that a level point behind the shoulder is at +pi.
+/// -0 becomes 0, whatever the rounding mode, so that a level point behind the shoulder is at +pi. Derivatives of
+/// Eigen's AutoDiffScalar stay.
 template <class S>
 S without_sign_of_zero(const S& x) {
-  return x == S(0) ? S(0) : x;
+  using std::abs;
+  return x == S(0) ? S(abs(x)) : x;
 }
 
 /// Below this part of l2^2 the squared height of the apex over the elbow plane has lost two digits to cancellation.

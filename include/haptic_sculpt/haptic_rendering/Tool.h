@@ -48,7 +48,8 @@ public:
   /// One tick: the button first, then the drag. A tick in which a vertex is taken in hand or let go of drags nothing,
   /// and one that looks for a place of the probe tries one place, too: no tick has the work of two. Allocates nothing
   /// but what edits do, and where coordinates are more than 2^199 apart in size; its work is that of the drag, bounded
-  /// as its parameters say; unset: those of the Sculptor. \throw what drags throw
+  /// as its parameters say; unset: those of the Sculptor. Where a function of the caller's asks for it in the middle of
+  /// a call, a change of the button waits. \throw what drags throw
   Tool_step move(const Eigen::Vector3d& handle, int button, const std::optional<Drag_parameters>& drag = std::nullopt) {
     const internal::Rounding_to_nearest rounding;
     const Eigen::Vector3d hand = map_.to_scene(handle);
@@ -208,7 +209,11 @@ private:
   std::optional<Result> last_drag_;
 
   double reach() const { return reach_ * map_.scale(); } ///< in the scene
-  Eigen::Vector3d place_of(Vertex_index v) const { return internal::vector_of(sculptor_->mesh().point(v)); }
+  /// \throw Mesh_changed where others have left it fewer elements, maybe
+  Eigen::Vector3d place_of(Vertex_index v) const {
+    internal::Sculptor_access::guarded(*sculptor_).check_counts();
+    return internal::vector_of(sculptor_->mesh().point(v));
+  }
   void anchor(const Eigen::Vector3d& held, const Eigen::Vector3d& hand) { offset_ = held - hand, is_anchored_ = true; }
 
   /// From where things are sought that the hand wants.
@@ -341,7 +346,8 @@ private:
 
   Tool_event release() {
     const Vertex_index v = grab_->vertex();
-    const Eigen::Vector3d place = place_of(v), away = internal::vector_of(vertex_normal(sculptor_->mesh(), v));
+    const Eigen::Vector3d place = or_let_go([&] { return place_of(v); }),
+                          away = internal::vector_of(vertex_normal(sculptor_->mesh(), v));
     grab_.reset();
     mesh_edits_.end_stroke();
     if (carries_probe_)
@@ -363,7 +369,8 @@ private:
     const Vertex_index v = grab_ ? grab_->vertex() : internal::nearest_vertex(*sculptor_, aim(hand), reach());
     if (!v.is_valid())
       return Tool_event::refused;
-    const Eigen::Vector3d place = place_of(v), away = internal::vector_of(vertex_normal(sculptor_->mesh(), v));
+    const Eigen::Vector3d place = or_let_go([&] { return place_of(v); }),
+                          away = internal::vector_of(vertex_normal(sculptor_->mesh(), v));
     const bool was_held = grab_.has_value();
     grab_.reset();
     const auto made = or_let_go([&] {

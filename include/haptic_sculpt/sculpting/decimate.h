@@ -117,9 +117,12 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
       internal::check_point("the placement of an edge", *placement);
     return placement;
   };
+  const auto number_of = [](const auto& cost) { // infinite where there is none
+    const double x = cost ? CGAL::to_double(*cost) : std::numeric_limits<double>::infinity();
+    return std::isfinite(x) ? x : std::numeric_limits<double>::infinity();
+  };
   const auto cost_at_end = [&](const Profile& profile, Vertex_index v) {
-    const auto cost = internal::ask(guarded, get_cost, profile, Placement(mesh.point(v)));
-    return cost ? CGAL::to_double(*cost) : std::numeric_limits<double>::infinity();
+    return number_of(internal::ask(guarded, get_cost, profile, Placement(mesh.point(v))));
   };
   const auto offer = [&](Edge_index e) {
     const Vertex_index v = mesh.vertex(e, 0), w = mesh.vertex(e, 1);
@@ -134,7 +137,7 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     }
     const auto asked =
         placement ? internal::ask(guarded, get_cost, profile, placement) : decltype(get_cost(profile, placement))();
-    const double cost = asked ? CGAL::to_double(*asked) : std::numeric_limits<double>::infinity();
+    const double cost = number_of(asked);
     std::isfinite(cost) ? queue.push(e, cost, false) : queue.leave_out(e);
   };
   const auto stroke = sculptor.stroke();

@@ -143,7 +143,8 @@ inline void find_coincident_vertices(const Face_soup& soup, Validity_report& rep
 /// \param most_intersections stop after this many pairs of intersecting faces, at least one
 /// \param face_name the index under which each face is reported; empty: its place in the soup
 /// \param vertex_exists false for points that belong to nothing (removed vertices); empty: all exist
-/// \throw Error as `validate(mesh)`, and if a corner is no index of a point
+/// \throw Error as `validate(mesh)`, and if a corner is no index of a point, a face no part of the corners, or names
+/// are not one for each face
 template <class Concurrency_tag = CGAL::Sequential_tag>
 Validity_report validate_soup(const Face_soup& soup, double delta = 0,
                               std::size_t most_intersections = Validity_report::default_most_intersections,
@@ -156,6 +157,9 @@ Validity_report validate_soup(const Face_soup& soup, double delta = 0,
     face_name.resize(soup.number_of_faces());
     std::iota(face_name.begin(), face_name.end(), Index(0));
   }
+  if (face_name.size() != soup.number_of_faces())
+    throw Error("there are " + std::to_string(face_name.size()) + " names for " +
+                std::to_string(soup.number_of_faces()) + " faces; give one for each, or none");
   vertex_exists.resize(std::max(vertex_exists.size(), soup.points.size()), vertex_exists.empty());
 
   Validity_report report;

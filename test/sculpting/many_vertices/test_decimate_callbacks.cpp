@@ -191,6 +191,34 @@ BOOST_AUTO_TEST_CASE(what_has_no_cost_is_not_collapsed_beside_constrained_edges_
   }
 }
 
+// Nor does an edge go into an end where it has none, when its placement is refused: of these edges one end has a cost.
+BOOST_AUTO_TEST_CASE(an_edge_does_not_go_into_an_end_without_a_cost) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+  Sculptor<Mesh> sculptor(mesh);
+  const auto is_dear = [](const meshes::Point_3& p) { return p.z() < 0; };
+  const auto number_of_others = [&] {
+    std::size_t count = 0;
+    for (const auto v : mesh.vertices())
+      count += !is_dear(mesh.point(v));
+    return count;
+  };
+  const auto cost = [&](const auto& profile, const Policy_optional<meshes::Point_3>& p) {
+    const bool is_mixed = is_dear(profile.p0()) != is_dear(profile.p1());
+    return Policy_optional<double>(is_mixed && p && !is_dear(*p) ? 1.0 : nan);
+  };
+  const auto placement = [&](const auto& profile) { // beyond the middle of the ball: it is refused
+    const meshes::Point_3 middle = CGAL::midpoint(profile.p0(), profile.p1());
+    return Policy_optional<meshes::Point_3>(meshes::Point_3(-3 * middle.x(), -3 * middle.y(), 3));
+  };
+  const std::size_t before = number_of_others();
+  const auto report = haptic_sculpt::decimate(
+      sculptor, [](const auto&, const auto&, std::size_t, std::size_t now) { return now < 60; },
+      CGAL::parameters::get_cost(cost).get_placement(placement));
+  BOOST_TEST(report.collapsed > 3u);
+  BOOST_TEST(number_of_others() == before);
+}
+
 // A policy asks for each edge anew where something about it has changed, and only once.
 BOOST_AUTO_TEST_CASE(no_edge_is_asked_of_twice_between_two_collapses) {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.1));

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <map>
+#include <vector>
 
 using haptic_sculpt::validate;
 using haptic_sculpt::validate_soup;
@@ -171,6 +172,23 @@ BOOST_AUTO_TEST_CASE(corners_that_are_no_points) {
   BOOST_CHECK_THROW(validate_soup(soup), haptic_sculpt::Error);
   BOOST_CHECK_THROW(haptic_sculpt::make_surface<Mesh>(soup), haptic_sculpt::Error);
   BOOST_CHECK_THROW(haptic_sculpt::orient_components(soup), haptic_sculpt::Error);
+}
+
+// Nothing is read beyond the end of a list, whatever is written into it.
+BOOST_AUTO_TEST_CASE(faces_that_are_no_parts_of_the_corners_and_names_that_are_too_few_are_refused) {
+  using Indices = std::vector<haptic_sculpt::Face_soup::Index>;
+  const auto whole = soup_of(meshes::tetrahedron());
+  for (const Indices& first :
+       {Indices{0, 3, 6, 9, 13}, {0, 3, 6, 2, 12}, {1, 3, 6, 9, 12}, {0, 3, 6, 9, 4000000000u}, {7}}) {
+    auto soup = whole;
+    soup.first_corner = first;
+    BOOST_CHECK_THROW(validate_soup(soup), haptic_sculpt::Error);
+    BOOST_CHECK_THROW(haptic_sculpt::make_surface<Mesh>(soup), haptic_sculpt::Error);
+    BOOST_CHECK_THROW(haptic_sculpt::orient_components(soup), haptic_sculpt::Error);
+  }
+  for (const Indices& names : {Indices{7}, {1, 2, 3, 4, 5}})
+    BOOST_CHECK_THROW(validate_soup(whole, 0, 1, names), haptic_sculpt::Error);
+  BOOST_TEST(validate_soup(whole, 0, 1, {4, 3, 2, 1}).is_valid());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

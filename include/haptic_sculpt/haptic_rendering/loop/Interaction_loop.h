@@ -217,6 +217,8 @@ private:
   /// others. A tick that takes another vertex in hand does not move it.
   std::size_t work() const {
     const Vertex_index v = tool_.vertex();
+    if (v.is_valid())
+      internal::Sculptor_access::guarded(*sculptor_).check_counts(); // by others it may be beyond the end
     const std::size_t faces = v.is_valid() ? sculptor_->mesh().degree(v) : 0;
     return parameters_.work_limit +
            std::min(parameters_.work_of_a_face * faces, std::max(faces, Haptic_parameters::most_work_of_faces));

@@ -75,6 +75,11 @@ public:
     check_may_change();
     watch_.check_counts();
   }
+  /// The same of ways in that change nothing. \throw Unfinished_change, Mesh_changed
+  void check_counts() const {
+    check_is_whole();
+    watch_.check_counts();
+  }
   /// Whether a function of the caller's runs now, in the middle of a call.
   bool is_asking() const noexcept { return writing_.is_asking(); }
   /// In the middle of a call, as long as what is returned lives: functions of the caller's may look, and not edit.

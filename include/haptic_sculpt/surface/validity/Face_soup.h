@@ -103,8 +103,15 @@ void keep_points(Face_soup& soup, const Vertices& vertices) {
   soup.points = std::move(points);
 }
 
-/// \throw Error where a corner is no index of a point
+/// \throw Error where a corner is no index of a point, or a face no part of the corners
 inline void check_corners(const Face_soup& soup) {
+  for (std::size_t f = 0; f <= soup.number_of_faces() && !soup.first_corner.empty(); ++f)
+    if (const std::size_t first = soup.first_corner[f], before = f == 0 ? 0 : soup.first_corner[f - 1];
+        first < before || first > soup.corners.size() || (f == 0 && first != 0))
+      throw Error("entry " + std::to_string(f) + " of first_corner is " + std::to_string(first) + ", but " +
+                  (f == 0 ? std::string("faces begin with corner 0")
+                          : "faces follow each other from " + std::to_string(before) + " up to the " +
+                                std::to_string(soup.corners.size()) + " corners"));
   for (std::size_t i = 0; i < soup.corners.size(); ++i)
     if (soup.corners[i] >= soup.points.size())
       throw Error("corner " + std::to_string(i) + " of the list of faces is point " + std::to_string(soup.corners[i]) +
