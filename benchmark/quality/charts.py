@@ -242,7 +242,9 @@ def answers_of_others(name, rows):
     """Of programs whose answers were handed in, judged by the oracle."""
     points = [(r["name"], r["seconds_a_query"], r["share_wrong"]) for r in rows if r["seconds_a_query"]]
     table = Table("Answers handed in", ["program", "queries", "time of one", "false alarms", "missed", "largest error of the time"],
-                  [[r["name"], r["queries"], "not said" if r["seconds_a_query"] is None else seconds_text(r["seconds_a_query"]), r["false_positives"], r["false_negatives"],
+                  [[r["name"], r["queries"],
+                    "not said" if r["seconds_a_query"] is None else seconds_text(r["seconds_a_query"]),
+                    r["false_positives"], r["false_negatives"],
                     "" if r["largest_error"] is None else f"{r['largest_error']:.2g}"] for r in rows])
     return [Finding(name, f"{len(rows)} programs have answered the same queries.", str(len(rows)), "programs beside ours",
                     speed_error(points, "share of wrong verdicts", "time of a query") if points else "", "Time of other programs' answers against wrong verdicts", [table])]

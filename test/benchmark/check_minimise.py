@@ -106,7 +106,8 @@ def stopped(folder, mesh, lines, faults):
     tries = folder / "tries"
     tries.touch()
     judge = f"""bash -c 'echo >> {tries}; grep -qxF "{needed}" {{script}}'"""
-    words = [sys.executable, ROOT / "benchmark/robustness/minimise", SCULPT, mesh, script, "--command", judge, "--exit", 0]
+    words = [sys.executable, ROOT / "benchmark/robustness/minimise", SCULPT, mesh, script, "--command", judge,
+             "--exit", 0]
     for name, options in (("by_time", ("--seconds", 0.2)), ("by_hand", ())):
         before = tries.stat().st_size
         going = subprocess.Popen([*map(str, words), "--out", folder / name, *map(str, options)],

@@ -174,7 +174,8 @@ for name, mesh in MESHES:
               f"{name}: uploads: {report['uploaded']}")
 
 # What a mesh has besides its faces is not in what is saved of it, which is said.
-mesh = write(at("normals.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nf 1//1 3//1 2//1\nf 1//1 2//1 4//1\nf 2//1 3//1 4//1\nf 3//1 1//1 4//1\n")
+mesh = write(at("normals.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\n"
+                                "f 1//1 3//1 2//1\nf 1//1 2//1 4//1\nf 2//1 3//1 4//1\nf 3//1 1//1 4//1\n")
 lines, _ = window(mesh, "--no-log", "--size", 300, 225, "--samples", 0, what="normals",
                   script=f"settle\nsave {at('without.off')}\nsettle\nprint\nquit\n")
 check(lines and lines[0]["said"].startswith("saved ") and lines[0]["said"].endswith("has besides its faces: normals"),

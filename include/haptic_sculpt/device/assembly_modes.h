@@ -91,8 +91,9 @@ template <class S> int candidate_cosines(const Platform_closure<S>& closure, int
   }
   if (largest == S(0))
     return -1;
+  const S rounding = S(16) * std::numeric_limits<S>::epsilon() * largest; // of a coefficient that is truly 0
   int top = degree;
-  while (top > 0 && abs(coefficients[top]) <= S(16) * std::numeric_limits<S>::epsilon() * largest)
+  while (top > 0 && abs(coefficients[top]) <= rounding)
     --top;
   if (top == 0)
     return 0;

@@ -22,6 +22,9 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
   using std::abs;
   const S epsilon = std::numeric_limits<S>::epsilon(), scale = parameters.inverse_secondary_length(),
           r = parameters.platform_radius();
+  // No units. A step of so few roundings is none; of more, its square shows that the next one would be none. What a
+  // pose may miss the closure by: 16 roundings of each of its terms, and room.
+  const S settled = S(8) * epsilon, closure_rounding = S(256) * epsilon;
   S previous(0);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (!place_elbows(parameters, Device_vector<S>(pose.theta), pose))
@@ -42,7 +45,7 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
       const Device_vector<S> before = pose.orientation.col(column), turned = half.cross(before);
       pose.orientation.col(column) = before + (S(2) / (S(1) + half.squaredNorm())) * (turned + half.cross(turned));
     }
-    if (length <= S(8) * epsilon || (length * length <= epsilon && iteration > 0 && !(length < previous / S(2)))) {
+    if (length <= settled || (length * length <= epsilon && iteration > 0 && !(length < previous / S(2)))) {
       pose.orientation.col(0).normalize();
       pose.orientation.col(1) =
           (pose.orientation.col(1) - pose.orientation.col(0).dot(pose.orientation.col(1)) * pose.orientation.col(0))
@@ -64,7 +67,7 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
         residual = across > residual ? across : residual;
         pose.links.col(i) = link;
       }
-      return residual <= S(256) * epsilon * (S(1) + position.norm() * scale);
+      return residual <= closure_rounding * (S(1) + position.norm() * scale);
     }
     previous = length;
   }

@@ -30,13 +30,15 @@ Outcome<Projected_links<S>> projected_links(const Device_parameters<S>& paramete
   using std::sqrt;
   Outcome<Projected_links<S>> outcome;
   Projected_links<S>& links = outcome.value_to_fill();
+  // Of links of length 1, no unit: of one that is shorter in its plane the direction has lost half of its digits.
+  const S least_square = std::numeric_limits<S>::epsilon();
   for (int i = 0; i < 3; ++i) {
     Device_matrix<S> turn = motion.joint_jacobian(i), turn_rate = motion.joint_jacobian_rate(i);
     turn.col(i) -= motion.elbow_rates.col(i);
     turn_rate.col(i) -= motion.elbow_rates_derived.col(i);
     const S x = Leg_frame<S>::along_radial(i, motion.pose.links.col(i)), z = motion.pose.links(2, i),
             square = x * x + z * z;
-    if (!(square > std::numeric_limits<S>::epsilon())) {
+    if (!(square > least_square)) {
       outcome.fail(Device_status::singular, S(0));
       return outcome;
     }

@@ -73,8 +73,9 @@ private:
     S determinant;
     internal::adjugate(rows, inverse_, determinant);
     using std::abs;
-    regular_ =
-        abs(determinant) > S(16) * std::numeric_limits<S>::epsilon(); // rows are unit vectors, so this is their volume
+    // No unit: rows are unit vectors, so the determinant is their volume, and is off by less than 16 roundings.
+    const S rounding_of_volume = S(16) * std::numeric_limits<S>::epsilon();
+    regular_ = abs(determinant) > rounding_of_volume;
     if (regular_)
       inverse_ *= S(1) / determinant;
   }
@@ -105,7 +106,8 @@ private:
     }
     a.row(3) << S(0), last_x, last_y, x_[0] + x_[1] + x_[2];
     lu_.compute(a);
-    regular_ = lu_.least_pivot() > S(16) * std::numeric_limits<S>::epsilon() * ratio;
+    const S rounding_of_pivots = S(16) * std::numeric_limits<S>::epsilon() * ratio; // no unit; `ratio` is their size
+    regular_ = lu_.least_pivot() > rounding_of_pivots;
   }
 
   bool point_, regular_;
