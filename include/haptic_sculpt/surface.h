@@ -8,7 +8,6 @@
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/delta_rule.h>
 #include <haptic_sculpt/surface/read_surface.h>
-#include <haptic_sculpt/surface/star.h>
 #include <haptic_sculpt/surface/validate.h>
 #include <haptic_sculpt/surface/vertex_attributes.h>
 #include <haptic_sculpt/surface/write_surface.h>

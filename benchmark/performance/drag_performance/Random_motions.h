@@ -4,7 +4,7 @@
 #include "meshes/generated_meshes.h"
 
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
-#include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/connectivity/star.h>
 
 namespace haptic_sculpt::benchmark {
 

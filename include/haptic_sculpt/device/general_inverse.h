@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/device/certain_turn.h>
+#include <haptic_sculpt/device/certainty/certain_turn.h>
 #include <haptic_sculpt/device/ditetrahedral_kinematics.h>
 #include <haptic_sculpt/device/general_kinematics.h>
 

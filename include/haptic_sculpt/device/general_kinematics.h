@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/device/elbow_way.h>
+#include <haptic_sculpt/device/certainty/elbow_way.h>
 #include <haptic_sculpt/device/platform_closure.h>
 
 /// \file

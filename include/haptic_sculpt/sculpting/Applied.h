@@ -10,7 +10,7 @@
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Responses.h>
 #include <haptic_sculpt/sculpting/response/Slide_path.h>
-#include <haptic_sculpt/surface/make_room.h>
+#include <haptic_sculpt/surface/containers/make_room.h>
 
 namespace haptic_sculpt {
 

@@ -7,7 +7,7 @@
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/many_vertices/Collapse_queue.h>
 #include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
-#include <haptic_sculpt/sculpting/named_parameters.h>
+#include <haptic_sculpt/sculpting/many_vertices/named_parameters.h>
 
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_profile.h>

@@ -3,9 +3,9 @@
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
-#include <haptic_sculpt/surface/Is_mesh_of_doubles.h>
+#include <haptic_sculpt/surface/io/Is_mesh_of_doubles.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
-#include <haptic_sculpt/surface/add_faces.h>
+#include <haptic_sculpt/surface/connectivity/add_faces.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/io/check_regular_file.h>
 #include <haptic_sculpt/surface/io/parse_obj.h>

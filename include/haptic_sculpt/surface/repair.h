@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/no_fast_math.h>
-#include <haptic_sculpt/surface/Is_mesh_of_doubles.h>
+#include <haptic_sculpt/surface/io/Is_mesh_of_doubles.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/read_surface.h>
 #include <haptic_sculpt/surface/repair/copy_attributes.h>

@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
-#include <haptic_sculpt/surface/Is_mesh_of_doubles.h>
+#include <haptic_sculpt/surface/io/Is_mesh_of_doubles.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/io/format_attributes.h>
 #include <haptic_sculpt/surface/io/format_stl.h>

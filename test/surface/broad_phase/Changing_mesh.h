@@ -6,7 +6,7 @@
 
 #include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
-#include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/connectivity/star.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 

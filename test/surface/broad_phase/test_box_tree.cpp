@@ -4,7 +4,7 @@
 #include "surface/broad_phase/swept_faces.h"
 
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
-#include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/connectivity/star.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/surface/add_faces.h>
+#include <haptic_sculpt/surface/connectivity/add_faces.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>

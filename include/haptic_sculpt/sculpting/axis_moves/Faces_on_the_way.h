@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/surface/Face_corners.h>
-#include <haptic_sculpt/surface/Round_marks.h>
+#include <haptic_sculpt/surface/connectivity/Face_corners.h>
+#include <haptic_sculpt/surface/containers/Round_marks.h>
 #include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/culling/Distinct_pairs.h>
-#include <haptic_sculpt/surface/Face_corners.h>
-#include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/connectivity/Face_corners.h>
+#include <haptic_sculpt/surface/connectivity/star.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 

@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
-#include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/connectivity/star.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt::internal {

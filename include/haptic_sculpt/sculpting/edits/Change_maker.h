@@ -9,7 +9,7 @@
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/edits/Write_state.h>
 #include <haptic_sculpt/sculpting/edits/star_edits.h>
-#include <haptic_sculpt/surface/Round_marks.h>
+#include <haptic_sculpt/surface/containers/Round_marks.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>

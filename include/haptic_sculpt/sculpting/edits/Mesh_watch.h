@@ -2,9 +2,9 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/Mesh_changed.h>
-#include <haptic_sculpt/surface/Face_corners.h>
+#include <haptic_sculpt/surface/connectivity/Face_corners.h>
 #include <haptic_sculpt/surface/broad_phase/processor.h>
-#include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/connectivity/star.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
-#include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/connectivity/star.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/Mesh_changed.h>
-#include <haptic_sculpt/surface/make_room.h>
+#include <haptic_sculpt/surface/containers/make_room.h>
 
 #include <string>
 #include <vector>

@@ -5,7 +5,7 @@
 #include <haptic_sculpt/sculpting/Surface_hit.h>
 #include <haptic_sculpt/sculpting/finding/box_bounds.h>
 #include <haptic_sculpt/sculpting/finding/compare_distances.h>
-#include <haptic_sculpt/surface/Face_corners.h>
+#include <haptic_sculpt/surface/connectivity/Face_corners.h>
 #include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 

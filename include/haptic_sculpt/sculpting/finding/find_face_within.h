@@ -5,7 +5,7 @@
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
-#include <haptic_sculpt/surface/Face_corners.h>
+#include <haptic_sculpt/surface/connectivity/Face_corners.h>
 #include <haptic_sculpt/surface/Box_3.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 

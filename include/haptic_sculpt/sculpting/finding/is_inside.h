@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/collision/arithmetic/orientation_filter.h>
-#include <haptic_sculpt/surface/Face_corners.h>
+#include <haptic_sculpt/surface/connectivity/Face_corners.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <vector>

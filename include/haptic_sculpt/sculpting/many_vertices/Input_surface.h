@@ -2,8 +2,8 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/Scaled_points.h>
-#include <haptic_sculpt/surface/Face_corners.h>
-#include <haptic_sculpt/surface/nearest_point_tree.h>
+#include <haptic_sculpt/surface/connectivity/Face_corners.h>
+#include <haptic_sculpt/surface/repair/nearest_point_tree.h>
 
 #include <cmath>
 #include <deque>

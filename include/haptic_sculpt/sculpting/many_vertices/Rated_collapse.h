@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
-#include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/connectivity/star.h>
 
 namespace haptic_sculpt::internal {
 

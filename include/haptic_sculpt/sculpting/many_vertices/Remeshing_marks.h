@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/sculpting/many_vertices/Face_patches.h>
 #include <haptic_sculpt/sculpting/many_vertices/Scaled_points.h>
-#include <haptic_sculpt/surface/Face_corners.h>
+#include <haptic_sculpt/surface/connectivity/Face_corners.h>
 
 #include <cmath>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_state.h>
-#include <haptic_sculpt/sculpting/named_parameters.h>
+#include <haptic_sculpt/sculpting/many_vertices/named_parameters.h>
 
 #include <cstdint>
 #include <limits>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
-#include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/connectivity/star.h>
 
 namespace haptic_sculpt::internal {
 

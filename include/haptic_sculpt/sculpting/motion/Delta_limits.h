@@ -4,7 +4,7 @@
 #include <haptic_sculpt/sculpting/Contact_3.h>
 #include <haptic_sculpt/sculpting/geometry/delta_limit.h>
 #include <haptic_sculpt/sculpting/geometry/stop.h>
-#include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/connectivity/star.h>
 
 namespace haptic_sculpt::internal {
 

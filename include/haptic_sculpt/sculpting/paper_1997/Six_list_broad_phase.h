@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
-#include <haptic_sculpt/surface/make_room.h>
+#include <haptic_sculpt/surface/containers/make_room.h>
 
 #include <algorithm>
 #include <cstdint>

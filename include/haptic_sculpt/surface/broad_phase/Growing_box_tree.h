@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/surface/broad_phase/nearest_first.h>
 #include <haptic_sculpt/surface/broad_phase/processor.h>
-#include <haptic_sculpt/surface/make_room.h>
+#include <haptic_sculpt/surface/containers/make_room.h>
 
 #include <algorithm>
 #include <memory>

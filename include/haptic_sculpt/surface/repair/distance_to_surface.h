@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/surface/nearest_point_tree.h>
+#include <haptic_sculpt/surface/repair/nearest_point_tree.h>
 #include <haptic_sculpt/surface/repair/Trail.h>
 
 #include <algorithm>

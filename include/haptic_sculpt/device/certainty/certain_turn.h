@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/device/Position_equations.h>
+#include <haptic_sculpt/device/certainty/Position_equations.h>
 #include <haptic_sculpt/device/linear_algebra/Small_lu.h>
 #include <haptic_sculpt/device/platform_closure.h>
 
