@@ -97,15 +97,25 @@ public:
     return code;
   }
 
-  /// What there is until now, in the course of long work. \throw Write_error
-  void write(const Json& report) const {
-    if (!file_.empty())
-      replace_file(file_, examples::text_of(report, 1) + '\n');
+  /// What there is until now, in the course of long work. Where that cannot be written the work goes on: the end tries
+  /// again.
+  void write_so_far(const Json& report) const {
+    try {
+      write(report);
+    } catch (const Write_error& error) {
+      say(error.what());
+    }
   }
 
 private:
   std::string name_, file_;
   CLI::App& app_;
+
+  /// \throw Write_error
+  void write(const Json& report) const {
+    if (!file_.empty())
+      replace_file(file_, examples::text_of(report, 1) + '\n');
+  }
 
   template <class Work>
   int exit_code_of(int argc, char** argv, const Work& work) {

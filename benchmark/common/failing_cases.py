@@ -32,7 +32,8 @@ def minimise(out, names, sculpt):
     """Makes the cases small that are not yet."""
     for _, _, script in scripts(out, names)[:MOST_CASES]:
         note = small(script, ".txt")
-        if note.exists() and note.stat().st_mtime > script.stat().st_mtime and not note.read_text().startswith(CUT_SHORT):
+        said = note.read_text() if note.exists() and note.stat().st_mtime > script.stat().st_mtime else ""
+        if said.endswith("\n") and not said.startswith(CUT_SHORT):  # a note without its end was cut off
             continue
         words = [sys.executable, steps.BENCHMARK / "robustness" / "minimise", sculpt, script.with_suffix(".off"),
                  script, "--out", script.with_name(script.stem + SMALL), "--seconds", SECONDS_A_CASE]

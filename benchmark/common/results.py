@@ -96,7 +96,8 @@ def deaths(out, names):
         for i in range(count[name]):
             path = out / "shards" / name / f"{i}_of_{count[name]}.failed"
             if not path.with_suffix(".json").exists():
-                found.append(path.read_text().splitlines()[-1] if path.exists() else f"{name}, shard {i}/{count[name]}, was ended from outside, or not begun")
+                lines = path.read_text().splitlines() if path.exists() else []  # none where the disk was full
+                found.append(lines[-1] if lines else f"{name}, shard {i}/{count[name]}, was ended from outside, or not begun")
     return found
 
 

@@ -51,8 +51,11 @@ def minutes_used(folder, shards, settings):
 
 def died(options, why, seconds, shown):
     """Names a shard that leaves no report, and how it is run alone."""
-    with open(options.json.with_suffix(".failed"), "a") as file:
-        file.write(f"{options.step}, shard {options.shard}/{options.shards}, {why} on {platform.node()} after {seconds:.0f} s: {shown}\n")
+    try:
+        with open(options.json.with_suffix(".failed"), "a") as file:
+            file.write(f"{options.step}, shard {options.shard}/{options.shards}, {why} on {platform.node()} after {seconds:.0f} s: {shown}\n")
+    except OSError as error:  # a full disk, by which the program may have died: its death is named below
+        print(f"{error}", file=sys.stderr)
     print(f"{options.step}, shard {options.shard}/{options.shards}, {why}; alone: {shown}", file=sys.stderr)
     return 1
 

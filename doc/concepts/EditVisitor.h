@@ -10,24 +10,21 @@
 /// haptic_sculpt::Reentrant_call is thrown where they try. They may ask it.
 ///
 /// - *Moves.* `vertex_moved` is called once for each drag that moved its vertex, however many legs there were, and for
-/// each vertex
-///   of a shift when all stand; made, undone and redone alike. A stroke is undone and redone change by change, the
-///   drags of a vertex between two other edits as one.
+///   each vertex of a shift when all stand; made, undone and redone alike. A stroke is undone and redone change by
+///   change, the drags of a vertex between two other edits as one.
 /// - *All other edits*, undone and redone ones too, replace some faces by others. While the mesh is still as it was,
-/// `face_dies`,
-///   `edge_dies` and `vertex_dies` are called for what the edit takes away. When the mesh is complete again,
-///   `vertex_created`, `edge_created` and `face_created` are called for what it has made. Each element is named once.
+///   `face_dies`, `edge_dies` and `vertex_dies` are called for what the edit takes away. When the mesh is complete
+///   again, `vertex_created`, `edge_created` and `face_created` are called for what it has made. Each element is named
+///   once.
 /// - *Descriptors are used again*, within one edit too. A face or edge is the triangle or segment of its vertices: one
-/// that is
-///   replaced has died, and a new one may have its descriptor. Forget what died before you note what is new.
+///   that is replaced has died, and a new one may have its descriptor. Forget what died before you note what is new.
 /// - *Nothing is said* of what was refused or lacked memory, of a drag that did not move, of
 ///   haptic_sculpt::Sculptor::probe(), and of settings.
 /// - *An exception* goes on to the caller of the edit, and the Sculptor works as before. Thrown in one of the `*_dies`,
-/// the change is
-///   not made, though some of what it would have killed has been named. Thrown in another function, the change stands,
-///   and the rest of it is not told, but where `face_replaces` or `edge_replaces` threw. An undo or redo of several
-///   changes is made whole or not at all. What was done of it is taken back. The functions above hear of that until one
-///   throws again; `face_replaces` and `edge_replaces` hear of all of it.
+///   the change is not made, though some of what it would have killed has been named. Thrown in another function, the
+///   change stands, and the rest of it is not told, but where `face_replaces` or `edge_replaces` threw. An undo or redo
+///   of several changes is made whole or not at all. What was done of it is taken back. The functions above hear of
+///   that until one throws again; `face_replaces` and `edge_replaces` hear of all of it.
 class EditVisitor : public haptic_sculpt::Default_edit_visitor {
 public:
   /// v is at its new place.

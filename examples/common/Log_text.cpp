@@ -309,6 +309,10 @@ Settings Log_contents::last_settings() const {
   return settings;
 }
 
+std::string_view whole_lines_of(std::string_view text) {
+  return begins_with(text, version_word) ? text.substr(0, text.rfind('\n') + 1) : text;
+}
+
 void check_begin_of_log(std::string_view text, const std::string& name) {
   if (begins_with(text, version_word))
     return;

@@ -97,8 +97,8 @@ inline void end_at_once_by_signals() {
 }
 
 /// Of a program that goes on until it is ended: from here on control-C, SIGTERM, SIGHUP and a limit of processor time
-/// (SIGXCPU) end it in order, as far as they were not ignored when it began. \pre put_process_in_order() \return
-/// becomes true with the first of them
+/// (SIGXCPU) end it in order, as far as they were not ignored when it began. \pre put_process_in_order()
+/// \return becomes true with the first of them
 inline const std::atomic<bool>& end_in_order_by_signals() {
   const auto note = [](int) { process::is_ended() = true; };
   for (const int signal : {SIGINT, SIGTERM, SIGXCPU})

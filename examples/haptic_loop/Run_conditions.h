@@ -5,7 +5,7 @@
 
 #include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
 #include <haptic_sculpt/haptic_rendering/check_coupling.h>
-#include <haptic_sculpt/haptic_rendering/loop/Haptic_parameters.h>
+#include <haptic_sculpt/haptic_rendering/Haptic_parameters.h>
 
 namespace haptic_sculpt::loop_program {
 

@@ -44,11 +44,14 @@ struct Script {
   std::string hash;
 };
 
-Script script_of(const Arguments& arguments) {
+Script script_of(const Arguments& arguments, Result_writer& writer) {
   if (arguments.script.empty())
     return {};
   const std::string text = examples::contents_of<Script_error>(arguments.script, "the script");
-  return {read_script(text, arguments.script), Sha256().add(text).digest()};
+  const std::string_view whole = examples::whole_lines_of(text);
+  if (whole.size() != text.size())
+    writer.note("'" + arguments.script + "' is a log whose last line is unfinished: that is left out");
+  return {read_script(whole, arguments.script), Sha256().add(text).digest()};
 }
 
 /// \throw Usage_error, Write_error
@@ -226,9 +229,9 @@ void write_all(Result_writer& writer, const Mesh& mesh, const Run_result& result
 
 int sculpt(const Arguments& arguments) {
   check_lengths(arguments);
-  const Script script = script_of(arguments);
-  check_files(arguments);
   Result_writer writer("sculpt");
+  const Script script = script_of(arguments, writer);
+  check_files(arguments);
   // A log is of what is sculpted: of the file, unless an option makes another surface of it, which is looked at first.
   const examples::Mesh_file file(arguments.mesh);
   std::optional<Sculpted_mesh> read;

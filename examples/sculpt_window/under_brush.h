@@ -76,8 +76,8 @@ struct Masked_edges {
 };
 
 /// Remeshes faces to edges of about a length; masked vertices stay, and edges between them. Waits for the disk where
-/// the log has no room. \param times_broken_off Scene's, when it was asked for \return false: it was broken off \throw
-/// Invalid_parameter where it would be more triangles than can be worked with
+/// the log has no room. \param times_broken_off Scene's, when it was asked for \return false: it was broken off
+/// \throw Invalid_parameter where it would be more triangles than can be worked with
 inline bool remesh(Scene& scene, Loop_task<Scene>::Tool_type& tool, std::vector<Face_index> faces, double length,
                    unsigned times_broken_off) {
   constexpr std::size_t most_faces = 5000000;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Three ways in which a vendor's functions give a place and take a force, and the adapter of each: a callback at its
-// own rate, a read that waits, and polling. The force is 0 at the end of each, also where something throws.
+// own rate, a read that waits, and polling. The force is 0 at the end of each, also where something throws, or a signal
+// ends it.
 #include <haptic_sculpt/haptic_rendering.h>
 #include <haptic_sculpt/surface.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <csignal>
 #include <iostream>
 #include <stdexcept>
 
@@ -50,15 +52,17 @@ void call_back(int (*function)(void*), void* data) { // now faster, now slower, 
 }
 } // namespace vendor
 
+volatile std::sig_atomic_t is_ended = 0; // destructors do not run where a signal ends the process
+
 /// What is the same for all three.
 class Adapter {
 public:
   explicit Adapter(Loop& loop) : loop_(loop) {}
-  ~Adapter() { give({0, 0, 0}); } // on every way out, an exception's too
+  ~Adapter() { give({0, 0, 0}); } // an exception's way out, too
   Adapter(const Adapter&) = delete;
   Adapter& operator=(const Adapter&) = delete;
 
-  bool goes_on() const { return !loop_.has_stopped() && last_ < 1.5; } // s
+  bool goes_on() const { return is_ended == 0 && !loop_.has_stopped() && last_ < 1.5; } // s
   void tick(const vendor::State& state) noexcept {
     Pose_reading reading;
     std::copy(state.position, state.position + 3, reading.position.data()); // metres
@@ -117,6 +121,8 @@ void run_by_polling(Loop& loop, double unplugged) {
 int main(int argc, char** argv) try {
   if (argc != 2)
     return std::cerr << "usage: adapters_of_devices MESH\n", 2;
+  for (const int signal : {SIGINT, SIGTERM})
+    std::signal(signal, [](int) { is_ended = 1; });
   bool is_right = true;
   for (const int kind : {0, 1, 2, 3}) {
     Scene scene(read_surface<Mesh>(argv[1]), [](const auto& lower, const auto& upper) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <iostream>
 #include <thread>
 
@@ -31,9 +32,11 @@ bool is_button_down() {
 }
 } // namespace vendor
 
+volatile std::sig_atomic_t is_ended = 0; // destructors do not run where a signal ends the process
+
 struct Driver { // models PoseDevice
   double last = 0;
-  ~Driver() { write_force({0, 0, 0}); } // on every way out
+  ~Driver() { write_force({0, 0, 0}); }
   Pose_reading read_pose() {
     Pose_reading reading;
     const double now = vendor::get_position(reading.position.data()); // metres
@@ -52,10 +55,12 @@ int main(int argc, char** argv) try {
   });
   const Pose_loop_parameters parameters(3); // N s/m that the device itself has: it bounds the stiffness
   Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.map, parameters);
+  for (const int signal : {SIGINT, SIGTERM})
+    std::signal(signal, [](int) { is_ended = 1; });
   Driver driver;
   using Clock = std::chrono::steady_clock;
   auto next = Clock::now();
-  for (int tick = 0; tick < 1500 && !loop.has_stopped(); ++tick) {
+  for (int tick = 0; tick < 1500 && !loop.has_stopped() && is_ended == 0; ++tick) {
     driver.write_force(loop.tick(driver.read_pose()).rendered.force);
     next = std::max(next + std::chrono::milliseconds(1), Clock::now()); // what was missed is not made up for
     std::this_thread::sleep_until(next);

@@ -181,7 +181,7 @@ def options_are_known():
         text = subprocess.run([str(BUILD / "benchmark" / step.program), "--help"], capture_output=True, text=True).stdout
         efforts = " ".join(step.effort(mode).options for mode in steps.MODES if step.effort(mode))
         for option in {"--json", "--shard", *re.findall("--[a-z-]+", f"{efforts} {step.with_meshes} {step.with_repair}")}:
-            expect(option in text, f"{step.program} of step {step.name} has no {option}")
+            expect(re.search(f"{option}(?![a-z-])", text), f"{step.program} of step {step.name} has no {option}")
 
 
 def no_case_is_left_out():
@@ -269,6 +269,13 @@ def death(out, folder):
     if said:
         alone = said[0].rsplit(": ", 1)[1].replace(str(build), str(BUILD))
         expect(subprocess.run(alone, shell=True, cwd=out, capture_output=True).returncode == 0, f"it cannot be run alone: {alone}")
+    named = out / "shards/device/1_of_3.failed"
+    kept = named.read_text()
+    named.write_text("")  # a full disk may leave it so
+    emptied = subprocess.run([PYTHON, "-c", f"import pathlib, sys; sys.path.insert(0, {str(ROOT / 'benchmark/common')!r}); import results; "
+                              f"print(results.deaths(pathlib.Path({str(out)!r}), ['device']))"], capture_output=True, text=True)
+    expect("shard 1/3, was ended from outside" in emptied.stdout, f"a death without words: {emptied}")
+    named.write_text(kept)
     dying.write_text(f"#!/bin/bash\nexec {BUILD / 'benchmark' / 'device_speed_error'} \"$@\"\n")
     mended = run(out, "axis", "device", build=build)
     expect(mended.returncode == 0 and "made again: 1/3" in (out / "index.html").read_text(), f"mended, it ends with {mended.returncode}: {mended.stderr}")
@@ -453,6 +460,10 @@ def failing_case(out, folder):
     expect(len(left) == 1 and left[0].split()[2] == "7", f"the case is not made small: {left}")
     page = (out / "index.html").read_text()
     expect("failures/drags_and_edits/1_of_3/batch_7.script" in page and str(small.relative_to(out)) in page, "the page does not list the failing case")
+    # A note that was cut off, as by a full disk, is made again.
+    small.with_suffix(".txt").write_text("")
+    again = run(out, "drags_and_edits", build=build)
+    expect(again.returncode == 4 and small.with_suffix(".txt").read_text().endswith(" tries\n"), f"a note that is cut off stays: {again.returncode}, {again.stderr}")
     # Made again by a program that keeps its promises nothing is left of it.
     program = build / "benchmark/robustness"
     program.write_text(program.read_text().replace("'1/3'", "'no shard'"))
@@ -544,9 +555,11 @@ def answers(out, folder):
     full = folder / "full"
     full.mkdir()
     os.symlink("/dev/full", full / "truth.txt.unfinished")
+    (full / "queries.txt").write_text("kept")
     for words in (["--write-queries", str(full)], ["--json", "/dev/full"]):
         done = subprocess.run([str(BUILD / "benchmark/sweep_speed_error"), "--queries", "1", *words], capture_output=True, text=True)
         expect(done.returncode == 5 and "cannot write" in done.stderr, f"{words} where the disk is full: exit {done.returncode}, {done.stderr}")
+    expect((full / "queries.txt").read_text() == "kept" and not os.path.lexists(full / "truth.txt"), "answers are replaced by half")
     judged = folder / "judged.json"
     subprocess.run([str(BUILD / "benchmark/sweep_speed_error"), "--queries", "1", "--json", str(judged)], check=True, capture_output=True)
     report = json.loads(judged.read_text())

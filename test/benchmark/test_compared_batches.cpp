@@ -65,6 +65,19 @@ BOOST_AUTO_TEST_CASE(a_broad_phase_that_leads_elsewhere_has_other_bits_and_its_c
     BOOST_TEST(first_line(folder.path / (std::string(name) + ".script")) + '\n' == other_bits_line);
     BOOST_TEST(std::filesystem::exists(folder.path / (std::string(name) + ".off")));
   }
+  BOOST_TEST(counts.unwritten == 0);
+}
+
+// As on a full disk.
+BOOST_AUTO_TEST_CASE(a_case_that_cannot_be_written_costs_nothing_else) {
+  const Mesh mesh = meshes::to_mesh(meshes::torus(16, 9));
+  Batch batch;
+  batch.count = 100, batch.seed = 5;
+  Compared_batches::Counts counts;
+  const Compared_batches different({right, wrong}, "/dev/null/nowhere", Keep::what_fails);
+  BOOST_TEST(different.make(mesh, batch, &Broad_phase_choice::drag_batch, "drags", counts).drags == 100);
+  BOOST_TEST(counts.other_bits == 1);
+  BOOST_TEST(counts.unwritten == 1);
 }
 
 BOOST_AUTO_TEST_CASE(a_clearance_that_does_not_serve_is_counted_and_one_that_does_is_used) {

@@ -66,7 +66,9 @@ def edits_and_log(folder, mesh):
         if length % 4 == 0:
             check(run(mesh, "-o", again, "--log", cut).returncode == 0, f"log cut at {length}")
             as_script = f"{folder}/as_script.off"
-            check(run(mesh, "--script", "/dev/stdin", "-o", as_script, script=kept.decode()).returncode == 0, "prefix")
+            done = run(mesh, "--script", "/dev/stdin", "-o", as_script, script=complete[:length].decode())
+            is_whole = kept == complete[:length]
+            check(done.returncode == 0 and ("unfinished" in done.stderr) != is_whole, f"log cut at {length} as a script: {done.stderr}")
             check(bytes_of(again) == bytes_of(as_script), f"log cut at {length} gives another mesh")
             check(bytes_of(cut) == kept, f"log cut at {length}: the unfinished line stays")
         done = run(mesh, "-o", again, "--log", cut, "--script", script)

@@ -245,7 +245,9 @@ replayed(cube, at("remove.log"), at("removed.off"), "removals")
 
 # A log that sculpt has begun, also by remeshing, is gone on with.
 remeshed = at("remeshed.log")
-run(BALL, "--log", remeshed, "--script", "-", "-o", at("again.off"), script="remesh 0.2\n")
+done = run(BALL, "--log", remeshed, "--script", "-", "-o", at("again.off"), script="remesh 0.2\n")
+begun = bytes_of(remeshed)
+check(done.returncode == 0 and begun.count(b"\n") > 10, f"sculpt begins a log: exit {done.returncode}, {len(begun)} bytes")
 lines, _ = window(BALL, "--log", remeshed, "--samples", 0, "--size", 300, 225, script=f"""
 settle
 drag 150 110 170 90 4
@@ -253,6 +255,7 @@ save {at("further.off")}
 settle
 quit
 """, what="a remeshed log")
+check(bytes_of(remeshed).startswith(begun) and len(bytes_of(remeshed)) > len(begun), "a remeshed log is not gone on with")
 replayed(BALL, remeshed, at("further.off"), "a remeshed log")
 
 # A process that is killed loses nothing: its log makes what it had done, and the same command goes on from there.
@@ -468,7 +471,8 @@ quit
 check(len(lines) == 2 and lines[0]["where"] == [None, None] and "behind the eye" in lines[1]["refused"] and lines[1]["edits"] == 0,
       f"a place behind the eye: {lines}")
 # The report is of the last tick: it counts an edit if the log has one, however soon the window ends.
-for wait in ("", "wait 0.05\n", "wait 0.2\n"):
+was_done = False
+for wait in ("", "wait 0.05\n", "wait 0.2\n", "settle\n"):
     log = at("ends_at_once.log")
     if os.path.exists(log):
         os.remove(log)
@@ -478,6 +482,8 @@ for wait in ("", "wait 0.05\n", "wait 0.2\n"):
     words = [line.split(b" ")[0] for line in bytes_of(log).split(b"\n")]
     done = any(word in (b"insert_edge", b"collapse", b"flip", b"drag") for word in words)
     check((edits > 0) == done, f"the report has {edits} edits, and the log others")
+    was_done = was_done or done
+check(was_done, "no edit of these was done")
 window(precious, "--no-log", "-o", precious, "--samples", 0, script="settle\nkey s\nsettle\nquit\n", what="without a log the mesh may be replaced")
 # A log beside the mesh that is of another mesh: nobody has asked for it.
 write(at("stale.off"), box(2))
@@ -649,6 +655,7 @@ try:
 except subprocess.TimeoutExpired:
     process.kill()
     check(False, "a terminal that is closed early does not end the window")
+check(process.returncode in (0, -signal.SIGHUP), f"a terminal that is closed early: exit {process.returncode}")
 _, err = window(write(at("mesh.txt"), "OFF\n"), script="quit\n", code=3, what="a mesh of another name")
 check("mesh.txt" in err and "-o" not in err, f"a mesh of another name: {err}")
 _, err = window(second, "--no-log", script="key o\n", code=4, what="the key o of a script")

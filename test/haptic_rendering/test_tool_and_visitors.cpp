@@ -149,6 +149,7 @@ BOOST_AUTO_TEST_CASE(a_loop_goes_on_within_an_edit_and_lets_go_after_it) {
     reading.button = 0;
     loop.tick(reading);
     BOOST_TEST(loop.tool().holds_vertex() == !has_fault);
+    BOOST_TEST(loop.tool().edits().grabbed == (has_fault ? 0u : 1u));
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <haptic_sculpt/haptic_rendering/Pose_loop.h>
+#include <haptic_sculpt/haptic_rendering/reach_position.h>
 #include <haptic_sculpt/haptic_rendering/Watchdog.h>
 
 #include <boost/test/unit_test.hpp>
@@ -82,6 +83,40 @@ BOOST_AUTO_TEST_CASE(a_stall_while_a_force_fades_ends_it) {
   loop.let_pass(0.021), loop.end_tick();
   BOOST_TEST(loop.rendered().force == Vector3d::Zero());
   BOOST_TEST(loop.has_faded());
+}
+
+// It has let go by then, too; a fault that is known and has not been told makes no difference.
+BOOST_AUTO_TEST_CASE(after_a_stall_a_restart_brings_the_weight_back_slowly) {
+  const Device_parameters<double> device(named_design<double>(Named_design::D1, Device_form::ditetrahedral));
+  const auto home = home_pose(device);
+  const Haptic_parameters parameters;
+  for (const bool has_stalled : {false, true})
+    for (const bool has_fault : {false, true}) {
+      Interaction<Joint_side> loop(Joint_side(device, *home, parameters), parameters, 0);
+      Joint_reading reading;
+      reading.theta = home->theta;
+      for (int k = 0; k < 10; ++k) {
+        reading.elapsed = k == 0 ? 7 : parameters.tick; // the first does not count
+        BOOST_REQUIRE(loop.follow(reading));
+        loop.render(Touch()), loop.end_tick();
+      }
+      const double weight = loop.rendered().torque.norm();
+      BOOST_TEST(weight > 0.01);
+      loop.restart();
+      if (has_fault)
+        loop.report(Loop_fault::error);
+      reading.elapsed = has_stalled ? 5 : parameters.tick;
+      for (int k = 0; k < 2; ++k) {
+        if (loop.follow(reading))
+          loop.render(Touch());
+        loop.end_tick();
+        reading.elapsed = parameters.tick;
+        if (has_stalled)
+          BOOST_TEST(loop.rendered().torque.norm() < 0.01 * weight);
+        else
+          BOOST_TEST(loop.rendered().torque.norm() > 0.97 * weight);
+      }
+    }
 }
 
 } // namespace

@@ -93,8 +93,8 @@ public:
   bool contains(const Rational_point& y) const { return !most_violated(y).has_value(); }
 
   /// The unique point nearest to the target. Starts with no constraint, and adds the one that its optimum violates most
-  /// and forgets those that do not push, until none is violated: the distance grows every time, so that ends. \throw
-  /// std::logic_error where the intersection is empty
+  /// and forgets those that do not push, until none is violated: the distance grows every time, so that ends.
+  /// \throw std::logic_error where the intersection is empty
   Optimum nearest(const std::array<double, 3>& target) const {
     const Rational_point t = rational(target);
     Optimum best{t, {}};

@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
         row.update(to_json(c));
         report["comparisons"].push_back(row);
         ++asked, broken += !c.is_kept();
-        program.write(report); // after every row: a run over large meshes takes hours
+        program.write_so_far(report); // after every row: a run over large meshes takes hours
       };
       const auto takes_next = [&] { return unit = program.shard.next_unit(), program.shard.takes_next(); };
       try {

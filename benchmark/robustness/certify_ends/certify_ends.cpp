@@ -46,6 +46,7 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
     throw Wrong_use("no family has '" + options.family + "' in its name");
   Json rows = Json::array();
   End_tally parts, near_degenerate;
+  std::size_t unwritten = 0;
   for (std::size_t family = 0; family < families.size(); ++family)
     for (const bool is_kept_deformed : {false, true}) {
       const std::string name = families[family] + (is_kept_deformed ? ", deformed" : "");
@@ -69,7 +70,12 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
                                 std::replace_if(
                                     file.begin(), file.end(),
                                     [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
-                                record.write(options.dump, file, what);
+                                try {
+                                  record.write(options.dump, file, what);
+                                } catch (const Write_error& error) { // a full disk costs the case alone
+                                  ++unwritten;
+                                  std::cerr << error.what() << '\n';
+                                }
                               });
         tally += grabs.run(std::min(options.drags_per_scene, options.drags - done));
       }
@@ -80,6 +86,8 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
       rows.back()["unit"] = 2 * family + is_kept_deformed;
     }
   Json totals = Json::array();
+  if (unwritten != 0)
+    promises.add(benchmark::cannot_write, "cases are written to the folder of --dump", unwritten, unwritten);
   promises.add(not_embedded, "the mesh is embedded", parts.validations + near_degenerate.validations,
                parts.invalid + near_degenerate.invalid);
   for (const auto& [name, tally, share] :

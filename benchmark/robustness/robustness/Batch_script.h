@@ -63,7 +63,8 @@ private:
 /// NAME.off and NAME.script. \throw Error
 inline void write_case(const std::filesystem::path& folder, const std::string& name, const Mesh& input,
                        const std::string& script) {
-  std::filesystem::create_directories(folder);
+  std::error_code none; // where it cannot be made, the files say so
+  std::filesystem::create_directories(folder, none);
   write_surface(folder / (name + ".off"), input);
   replace_file(folder / (name + ".script"), script);
 }

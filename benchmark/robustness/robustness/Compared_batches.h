@@ -4,6 +4,8 @@
 #include "Batch_script.h"
 #include "batches.h"
 
+#include <iostream>
+
 namespace haptic_sculpt::robustness {
 
 /// A script begins with it where broad phases differ: `minimise` compares them then.
@@ -15,9 +17,11 @@ class Compared_batches {
 public:
   struct Counts {
     std::size_t compared = 0, other_bits = 0, clearance_refused = 0; ///< batches; the last: at first, or later
+    std::size_t unwritten = 0; ///< cases that the folder has not taken: a full disk costs no more than these
 
     Counts& operator+=(const Counts& c) {
       compared += c.compared, other_bits += c.other_bits, clearance_refused += c.clearance_refused;
+      unwritten += c.unwritten;
       return *this;
     }
   };
@@ -48,10 +52,15 @@ public:
         return first.tally;
       if (!is_same && first.script.empty())
         first.script = (broad_phases_[0].*make)(mesh, only_bits, Keep::all).script;
-      if (!first.script.empty())
-        write_case(folder_, name, given, (is_same ? "" : other_bits_line) + first.script);
-      if (keep_ == Keep::all)
-        write_surface(folder_ / (name + ".end.off"), first.end);
+      try {
+        if (!first.script.empty())
+          write_case(folder_, name, given, (is_same ? "" : other_bits_line) + first.script);
+        if (keep_ == Keep::all)
+          write_surface(folder_ / (name + ".end.off"), first.end);
+      } catch (const Write_error& error) {
+        ++counts.unwritten;
+        std::cerr << error.what() << '\n';
+      }
       return first.tally;
     } catch (const Invalid_parameter&) {
       if (!batch.clearance)

@@ -79,8 +79,8 @@ inline Device_vector<W> apex_pair_widened(const Device_parameters<S>& parameters
 /// `mode` +1 takes the apex on the side of the elbow plane its normal (B_1 - B_0) x (B_2 - B_0) points to, which is up
 /// in ordinary poses, -1 the mirror image. Error of the apex: a few roundings times l2 / h, h the height over the elbow
 /// plane; where h is small, wider arithmetic (float to double, double to long double) takes the cancellation. Failures:
-/// `unreachable`, shortfall circumradius / l2 - 1; `singular`: elbows on a line or coincident; `not_finite`. \pre
-/// `parameters.form() == Device_form::ditetrahedral`, mode is 1 or -1
+/// `unreachable`, shortfall circumradius / l2 - 1; `singular`: elbows on a line or coincident; `not_finite`.
+/// \pre `parameters.form() == Device_form::ditetrahedral`, mode is 1 or -1
 template <class S>
 inline Outcome<Device_pose<S>> ditetrahedral_forward(const Device_parameters<S>& parameters,
                                                      const Device_vector<S>& theta, int mode) {

@@ -22,7 +22,7 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
   using std::abs;
   const S epsilon = std::numeric_limits<S>::epsilon(), scale = parameters.inverse_secondary_length(),
           r = parameters.platform_radius();
-  // No units. A step of so few roundings is none; of more, its square shows that the next one would be none. What a
+  // No units. A step of a few roundings is none; of more, its square shows that the next one would be none. What a
   // pose may miss the closure by: 16 roundings of each of its terms, and room.
   const S settled = S(8) * epsilon, closure_rounding = S(256) * epsilon;
   S previous(0);

@@ -22,6 +22,9 @@ struct Rendered_force {
 
 /// From a wanted force to torques: the chain of all devices, fading by cond(J), gravity compensation, room of the
 /// motors. No allocation.
+///
+/// While something is touched, the share by the pose and what the motors had room for only fall: a spring that is
+/// pressed where they are small and let go of where they are large would give energy that no hand has put in.
 class Force_renderer {
 public:
   /// Begins at a force of 0. \param tick s \param friction that the coupling needs at the handle, N s/m: where the
@@ -32,13 +35,18 @@ public:
 
   /// The force and torques of this tick; once a tick. \param wanted N, in axes of the device
   const Rendered_force& render(const Handle_motion& handle, const Eigen::Vector3d& wanted) {
-    return render(handle, wanted, handle.step().norm(), chain_.tick());
+    return render(handle, wanted, handle.step().norm(), chain_.tick(), false);
   }
-  /// \param way of the handle that made it what it is, m \param elapsed since the last tick, s
-  const Rendered_force& render(const Handle_motion& handle, const Eigen::Vector3d& wanted, double way, double elapsed) {
+  /// \param way of the handle that made it what it is, m \param elapsed since the last tick, s \param is_touched
+  /// whether something pushes
+  const Rendered_force& render(const Handle_motion& handle, const Eigen::Vector3d& wanted, double way, double elapsed,
+                               bool is_touched) {
     const Eigen::Vector3d force = chain_.follow(wanted, way, elapsed);
     carried_ = std::fmin(1.0, carried_ + chain_.tick() / chain_.limits().ramp_time);
-    in_room(handle, force * share_at(handle));
+    if (!is_touched)
+      begin_touch();
+    share_ = std::fmin(share_, share_at(handle));
+    in_room(handle, clamped(force * share_, room_));
     if (!last_.force.allFinite() || !last_.torque.allFinite())
       last_ = Rendered_force(), last_.is_finite = false;
     return last_;
@@ -64,7 +72,7 @@ public:
     const double left = last_.is_finite ? chain_.left() : 0;
     const Eigen::Vector3d weight = left * (last_.torque - last_.interaction_torque);
     carried_ *= left;
-    chain_.restart(), last_ = Rendered_force();
+    chain_.restart(), begin_touch(), last_ = Rendered_force();
     last_.torque = weight; // fades, where a fault comes next
   }
 
@@ -76,7 +84,11 @@ private:
   Gravity_compensation compensation_;
   double friction_;
   double carried_ = 1; ///< the share of the weight that the motors carry: all of it from the start on
+  /// Since nothing was touched: the least share_at(), and the least force, N, for which motors had no more room.
+  double share_ = 1, room_ = std::numeric_limits<double>::infinity();
   Rendered_force last_;
+
+  void begin_touch() { share_ = 1, room_ = std::numeric_limits<double>::infinity(); }
 
   /// By cond(J), and by the friction that is left at the handle, as the coupling is passive with.
   double share_at(const Handle_motion& handle) const {
@@ -101,6 +113,8 @@ private:
                           torque = handle.jacobian().linear.transpose() * force;
     const double limit = handle.parameters().torque_limit(), share = share_in_room(torque, weight, limit);
     last_.force = share * force;
+    if (share < 1)
+      room_ = last_.force.norm();
     last_.interaction_torque = share * torque;
     last_.torque = (weight + last_.interaction_torque).cwiseMax(-limit).cwiseMin(limit);
     last_.is_overloaded = whole.cwiseAbs().maxCoeff() > limit, last_.is_finite = true;

@@ -14,10 +14,10 @@ public:
   using Base = Interaction_loop<Sculptor_, Joint_side>; ///< what all loops do
   using Vertex_index = typename Base::Vertex_index;     ///< of the mesh that is sculpted
 
-  /// \param start a pose near the first reading, in the assembly mode of home_pose(), whose limits are asked for \param
-  /// limits made for this device, map, tick, delay, damping and fading (passivity_limits) \throw Unstable_coupling if
-  /// they do not permit the coupling, the virtual mass or the passivity controller; Error for parameters that cannot be
-  /// used, and for limits that were made for others
+  /// \param start a pose near the first reading, in the assembly mode of home_pose(), whose limits are asked for
+  /// \param limits made for this device, map, tick, delay, damping and fading (passivity_limits)
+  /// \throw Unstable_coupling if they do not permit the coupling, the virtual mass or the passivity controller; Error
+  /// for parameters that cannot be used, and for limits that were made for others
   Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device, const Device_pose<double>& start,
               const Workspace_map& map, const Haptic_parameters& parameters, const Passivity_limits& limits)
       : Haptic_loop(sculptor, device, start, map, parameters, limits, Rounding()) {}

@@ -7,23 +7,12 @@
 
 namespace haptic_sculpt {
 
-/// How a loop on a device of pose and force runs.
-struct Pose_loop_parameters {
-  double tick = 0.001;       ///< s
-  Virtual_coupling coupling; ///< its stiffness and that of the snap together at most passive_ and calm_stiffness()
-  Vertex_snap snap;          ///< of a hand that holds no vertex; off by default
-  Force_limits limits;       ///< of which cond(J) plays no role
-  Pose_device device;        ///< what it does at its handle
-  double delay = 0;          ///< from a command to its force, ticks
-  double speed = 10;         ///< of a handle that is in order at most, along each axis, m/s; may be infinite
-  double stall_time = 0.02;  ///< s between two ticks; without force 10 s, whatever it is
-  Virtual_mass_parameters virtual_mass;     ///< of what is grabbed; off by default
-  std::optional<double> controller_damping; ///< N s/m; nothing: half of what may be asked for
-  double reach = 0.001;                     ///< of a grab, m in the device
-  std::size_t work_limit = 400;             ///< pairs a drag may decide (doc/use/work.md)
-  std::size_t work_of_a_face = 4;           ///< pairs more for each face about the vertex in hand
-  /// For which the button has to be quiet before its next change counts, s (Debounced_button).
-  double button_quiet_time = Debounced_button::default_quiet_time;
+/// How a loop on a device of pose and force runs. The stiffness of coupling and snap together is at most passive_ and
+/// calm_stiffness(); of the limits that of cond(J) plays no role.
+struct Pose_loop_parameters : Loop_parameters {
+  Pose_device device;       ///< what it does at its handle
+  double speed = 10;        ///< of a handle that is in order at most, along each axis, m/s; may be infinite
+  double stall_time = 0.02; ///< s between two ticks; without force 10 s, whatever it is
 
   /// For a device that dissipates so much at its handle, N s/m: with the delay it bounds the stiffness.
   explicit Pose_loop_parameters(double friction) : Pose_loop_parameters(Pose_device(friction)) {}
@@ -69,10 +58,7 @@ struct Pose_loop_parameters {
       internal::require_number("Pose_loop_parameters::stall_time, the time that is a stall,", "s", stall_time,
                                Limits::shortest_stall, Limits::longest_stall);
     Haptic_parameters all;
-    all.tick = tick, all.delay = delay, all.coupling = coupling, all.snap = snap, all.limits = limits,
-    all.reach = reach;
-    all.work_limit = work_limit, all.work_of_a_face = work_of_a_face, all.controller_damping = controller_damping;
-    all.virtual_mass = virtual_mass, all.button_quiet_time = button_quiet_time;
+    static_cast<Loop_parameters&>(all) = *this;
     all.watchdog.joint_rate = speed, all.watchdog.stall_time = has_force() ? stall_time : Limits::longest_stall;
     all.check();
     return all;

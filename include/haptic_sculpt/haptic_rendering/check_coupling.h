@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/haptic_rendering/loop/Haptic_parameters.h>
+#include <haptic_sculpt/haptic_rendering/Haptic_parameters.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
 
 namespace haptic_sculpt {

@@ -12,7 +12,7 @@ namespace haptic_sculpt {
 /// argument of what drags; where it is left out those of the Sculptor hold.
 struct Drag_parameters {
   Response response_rule = Response::slide;    ///< see response()
-  std::optional<double> clearance_length;      ///< unset: default_clearance() at each contact
+  std::optional<double> clearance_length;      ///< unset: 4 ulp at each contact
   std::optional<std::size_t> work_limit_pairs; ///< unset: a drag takes what it takes
   bool is_once = false;                        ///< see once()
 

@@ -28,7 +28,7 @@ inline const char* name_of(Drag_end end) {
   return names[static_cast<int>(end)];
 }
 
-/// The outcome of `Grab::drag_to`. A blocked drag is a result like any other.
+/// The outcome of a drag. A blocked drag is a result like any other.
 template <class Mesh>
 struct Drag_result {
   /// This many contacts are held without an allocation. A stop reports all that come exactly first, a slide carries 32

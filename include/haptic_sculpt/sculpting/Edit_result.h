@@ -34,14 +34,14 @@ inline const char* name_of(Refusal_reason reason) {
 /// Why an edit was refused. The mesh is exactly as it was.
 template <class Mesh>
 struct Refusal {
-  /// Like a std::vector; allocates nothing for so few as there are.
+  /// Like a std::vector; allocates nothing for up to four.
   using Elements = boost::container::small_vector<typename Mesh::Vertex_index, 4>;
 
   Refusal_reason reason; ///< the rule that would be broken
   Elements elements;     ///< the vertices that stand in the way
 };
 
-/// The outcome of an edit that creates, removes, flips, undoes or redoes.
+/// The outcome of an edit.
 template <class Mesh>
 struct Edit_result {
   /// Where it was done: a vertex that is in the mesh now, and that the edit has made, moved or given other faces. One

@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/sculpting/Drag_parameters.h>
 #include <haptic_sculpt/sculpting/Drag_result.h>
-#include <haptic_sculpt/sculpting/first_impact.h>
+#include <haptic_sculpt/sculpting/contact/check_arguments.h>
 
 #include <utility>
 #include <vector>
@@ -42,7 +42,7 @@ public:
   /// \throw Out_of_range, Invalid_parameter, Mesh_changed; the mesh is then as it was.
   /// Cost: the candidates near the star times its valence; a look at the broad phase when the star leaves its region.
   /// Allocates nothing once it is warm: no list longer than any before, no more contacts than
-  /// Drag_result::usual_contacts, at most Edit_history::room moves since the grab, and no delta rule so nearly broken
+  /// Drag_result::usual_contacts, at most 16,384 moves since the grab, and no delta rule so nearly broken
   /// that it takes rational numbers to decide.
   /// \param parameters unset: those of the Sculptor
   Drag_result<Mesh> drag_to(const Point& target, const std::optional<Drag_parameters>& parameters = std::nullopt) {

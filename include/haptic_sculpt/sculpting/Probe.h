@@ -4,7 +4,7 @@
 #include <haptic_sculpt/sculpting/Drag_parameters.h>
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/Edit_result.h>
-#include <haptic_sculpt/sculpting/first_impact.h>
+#include <haptic_sculpt/sculpting/contact/check_arguments.h>
 
 #include <algorithm>
 #include <vector>

@@ -7,6 +7,7 @@
 #include <haptic_sculpt/sculpting/Probe.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
 #include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
+#include <haptic_sculpt/sculpting/guarded_mesh/Edit_applier.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Guarded_mesh.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 
@@ -25,7 +26,7 @@ namespace haptic_sculpt {
 /// (doc/use/exact_sweeps.md, "Another arithmetic").
 ///
 /// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay.
-/// Changes made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()`
+/// Changes made to the mesh by others are refused where they are found (doc/use/edits.md); `check_unchanged()`
 /// looks at all. Several objects are several components of the one mesh. Orientation does not matter: an inside-out
 /// component is guarded like any other.
 ///
@@ -200,7 +201,8 @@ public:
   /// given again. Done where the surface stays embedded, and the delta rule kept, at every time; decided exactly,
   /// whatever the traits (doc/use/axis_moves.md). Else refused, with the vertices of a place that is in the way. One
   /// change of the history. \tparam Concurrency_tag as of move_vertices() \param axis 0 to 2 \post Nothing has died.
-  /// \throw Unknown_vertex, Out_of_range, Invalid_parameter. Cost: n log n in what moves and is near
+  /// \throw Unknown_vertex, Out_of_range, Invalid_parameter. Cost: n log n in what moves and is near,
+  /// and the square of the valence of a moving vertex whose star is seen folded along the axis
   template <class Concurrency_tag = CGAL::Sequential_tag>
   Edited shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
     return internal::shift_all(guarded_, axis, ways, Part_runner::by<Concurrency_tag>());

@@ -32,9 +32,9 @@ void check_same_connectivity(const Mesh& copy, const Mesh& mesh) {
 /// and its vertex point map. It may do with them what it likes but change connectivity. What was removed stays in the
 /// copy, unused: after removals and remeshing, what counts the living and indexes by descriptors, as
 /// CGAL::Surface_mesh_deformation does by default, needs index maps of its own. Where it returns a `bool` that
-/// is false, as CGAL::Polygon_mesh_processing::fair() does when it fails, nothing moves. \param left_behind an output
-/// iterator, told the vertices that are not where the function wants them \return as move_vertices(), of the vertices
-/// that the function has moved
+/// is false, as CGAL::Polygon_mesh_processing::fair() does when it fails, nothing moves.
+/// \param left_behind an output iterator for the vertices that are not where the function wants them
+/// \return as move_vertices(), of the vertices that the function has moved
 ///
 /// The whole is one step of the history.
 /// \throw Invalid_parameter where connectivity has changed; Out_of_range where a point is not finite or too large:

@@ -3,9 +3,9 @@
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/Rounding_to_nearest.h>
+#include <haptic_sculpt/sculpting/contact/check_arguments.h>
 #include <haptic_sculpt/sculpting/motion/Narrow_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
-#include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>
@@ -14,51 +14,7 @@
 
 namespace haptic_sculpt {
 
-/// A point with a coordinate that is not a finite number was given as a target.
-class Non_finite_point : public Out_of_range {
-public:
-  /// Names the coordinates of p.
-  template <class Point_3>
-  explicit Non_finite_point(const Point_3& p)
-      : Out_of_range("the point (" + internal::number(p.x()) + ", " + internal::number(p.y()) + ", " +
-                     internal::number(p.z()) + ") is not finite: give three finite coordinates") {}
-};
-
-/// A vertex descriptor that is not a vertex of the mesh was given.
-class Unknown_vertex : public Error {
-public:
-  /// Names the index of the vertex.
-  explicit Unknown_vertex(std::size_t index)
-      : Error("vertex " + std::to_string(index) +
-              " is not in the mesh, or was removed: give a vertex of mesh.vertices()") {}
-};
-
 namespace internal {
-
-template <class Mesh>
-void check_vertex(const Mesh& mesh, typename Mesh::Vertex_index v) {
-  // is_valid() of a default-made index is false; the second test keeps is_removed() inside its array.
-  if (!v.is_valid() || static_cast<std::size_t>(v) >= mesh.num_vertices() || mesh.is_removed(v))
-    throw Unknown_vertex(static_cast<std::size_t>(v));
-}
-
-/// \throw Non_finite_point, Out_of_range
-template <class Point_3>
-void check_point(const char* what, const Point_3& p) {
-  if (is_in_range(coordinates(p)))
-    return;
-  if (!(std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z())))
-    throw Non_finite_point(p);
-  throw_out_of_range(what, coordinates(p));
-}
-
-/// \throw Out_of_range
-template <class Mesh>
-void check_points(const Mesh& mesh) {
-  for (const auto v : mesh.vertices())
-    if (const Coordinates p = coordinates(mesh.point(v)); !is_in_range(p))
-      throw_out_of_range("vertex " + std::to_string(static_cast<std::size_t>(v)) + " at", p);
-}
 
 /// \throw Error
 template <class Mesh>
@@ -90,7 +46,7 @@ void check_triangles_about(const Mesh& mesh, typename Mesh::Vertex_index v) {
 /// up to, and not at, the time of the impacts (doc/proofs/exact_sweeps.md, "Completeness"). On other meshes the answer
 /// is about the three sweeps only. A vertex without faces touches faces, and nothing touches it: it is no part of the
 /// surface. Where `target` is the place of a vertex of faces there is none. \throw Unknown_vertex, Out_of_range; Error
-/// if v is on a boundary, or has two edges to one vertex, or a face is no triangle Cost: reads every face once; the
+/// if v is on a boundary, or has two edges to one vertex, or a face is no triangle. Cost: reads every face once; the
 /// sweeps cost valence times the candidates whose boxes meet the swept star's. \param traits decide the sweeps, a model
 /// of SweptCollisionTraits_3: with another than the default the answer is as right as its sweeps are.
 template <class Mesh,

@@ -78,7 +78,7 @@ Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Ta
 /// `CGAL::Parallel_if_available_tag`: whether oneTBB's threads share the work of axis moves; the same bits either way
 /// \param vertices a range of vertices, const; one that is given again counts once
 /// \param target_map a model of `ReadablePropertyMap` from vertices to points
-/// \param left_behind an output iterator, told the vertices that are not at their targets at the end, in the order
+/// \param left_behind an output iterator for the vertices that are not at their targets at the end, in the order
 /// given; it may look, and not edit
 ///
 /// All targets are read and checked before the first vertex moves. The whole is one stroke, one step of the history;

@@ -79,8 +79,8 @@ public:
   }
 
   /// Lets go, and what is done is in the journal. Tasks under way, and what waits for them, are answered: not done.
-  /// What is still in the queue waits there for another session. To be called after the last tick. \throw
-  /// Reentrant_call, and nothing has changed
+  /// What is still in the queue waits there for another session. To be called after the last tick.
+  /// \throw Reentrant_call, and nothing has changed
   void end() {
     loop_->tool().let_go();
     answer_what_waits();

@@ -47,6 +47,9 @@ public:
   bool follow(const Reading& reading) {
     // At the first reading, as everywhere, it does not count; one that is no time is a fault below.
     const bool is_first = !std::exchange(has_last_, true);
+    // Before a restart that came after a stall the device has let go: what it carried does not come back at once.
+    if (is_first && std::exchange(is_restarted_, false) && reading.elapsed > watchdog_.limits().stall_time)
+      side_.fade_out(std::numeric_limits<double>::infinity()), side_.restart();
     elapsed_ = is_first || !std::isfinite(reading.elapsed) ? tick_ : reading.elapsed;
     if (!watchdog_.check(Side::coordinates(reading), Side::efforts(reading), reading.elapsed) ||
         !watchdog_.check_condition(side_.follow(reading, reading.elapsed)))
@@ -73,7 +76,7 @@ public:
     if (side_.has_force())
       wanted_ += virtual_mass_.force(side_.step(), elapsed_, touch.holds) +
                  controller_.force(observer_, side_.step(), elapsed_);
-    render_wanted(touch.is_starved ? 0 : side_.step().norm());
+    render_wanted(touch.is_starved ? 0 : side_.step().norm(), !touch.is_free);
   }
   /// No force is wanted, after follow(): what is left goes as fast as the slew limit lets it. Neither burst nor virtual
   /// mass nor controller has a say.
@@ -82,7 +85,7 @@ public:
     spring_.setZero(), wanted_.setZero();
     side_.cut_burst(), virtual_mass_.restart();
     observer_.forget_beyond(reserve_);
-    render_wanted(side_.step().norm());
+    render_wanted(side_.step().norm(), false);
   }
 
   /// While a force fades readings are not followed, but a stall counts. \param elapsed since the last one, s
@@ -122,7 +125,7 @@ public:
     if (watchdog_.fault() == Loop_fault::energy || observer_.is_blind())
       observer_.restart();
     watchdog_.reset(), side_.restart(), virtual_mass_.restart();
-    spring_.setZero(), rendered_ = Rendered_force(), is_paid_ = false, has_last_ = false;
+    spring_.setZero(), rendered_ = Rendered_force(), is_paid_ = false, has_last_ = false, is_restarted_ = true;
   }
 
 private:
@@ -137,12 +140,13 @@ private:
   Eigen::Vector3d spring_ = Eigen::Vector3d::Zero(), wanted_ = Eigen::Vector3d::Zero();
   Rendered_force rendered_;
   double tick_, elapsed_ = 0; ///< s
-  bool has_last_ = false; ///< a reading, since the last restart()
+  bool has_last_ = false;     ///< a reading, since the last restart()
+  bool is_restarted_ = false; ///< and no reading since
   bool is_paid_ = false;  ///< the spring has been whole ever since nothing was touched
 
   /// \param way of the handle that made it what it is, m
-  void render_wanted(double way) {
-    rendered_ = side_.render(wanted_, way, elapsed_);
+  void render_wanted(double way, bool is_touched) {
+    rendered_ = side_.render(wanted_, way, elapsed_, is_touched);
     if (rendered_.is_overloaded)
       watchdog_.report(Loop_fault::torque);
     if (!rendered_.is_finite)

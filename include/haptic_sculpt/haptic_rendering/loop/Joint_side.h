@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/haptic_rendering/loop/Haptic_parameters.h>
+#include <haptic_sculpt/haptic_rendering/Haptic_parameters.h>
 #include <haptic_sculpt/haptic_rendering/Joint_reading.h>
 
 namespace haptic_sculpt {
@@ -33,8 +33,9 @@ public:
   const Eigen::Vector3d& effort_step() const { return handle_.joint_step(); } ///< what efforts work on, rad
 
   /// \param wanted N \param way of the handle that made it, m \param elapsed since the last tick, s
-  const Rendered_force& render(const Eigen::Vector3d& wanted, double way, double elapsed) {
-    return renderer_.render(handle_, wanted, way, elapsed);
+  /// \param is_touched whether something pushes
+  const Rendered_force& render(const Eigen::Vector3d& wanted, double way, double elapsed, bool is_touched) {
+    return renderer_.render(handle_, wanted, way, elapsed, is_touched);
   }
   double next_ramp() const { return renderer_.next_ramp(); } ///< share of the force since the start, in the next tick
   Rendered_force fade_out(double elapsed) { return renderer_.fade_out(elapsed); } ///< after a fault

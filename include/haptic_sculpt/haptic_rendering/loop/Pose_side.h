@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/haptic_rendering/loop/Haptic_parameters.h>
+#include <haptic_sculpt/haptic_rendering/Haptic_parameters.h>
 #include <haptic_sculpt/haptic_rendering/Pose_reading.h>
 
 namespace haptic_sculpt {
@@ -66,7 +66,7 @@ public:
   const Eigen::Vector3d& effort_step() const { return step_; }             ///< what efforts work on, m
 
   /// \param wanted N \param way of the handle that made it, m \param elapsed since the last tick, s
-  const Rendered_force& render(const Eigen::Vector3d& wanted, double way, double elapsed) {
+  const Rendered_force& render(const Eigen::Vector3d& wanted, double way, double elapsed, bool /*is_touched*/) {
     last_.force = last_.interaction_torque = chain_.follow(wanted, way, elapsed);
     if (!last_.force.allFinite())
       last_ = Rendered_force(), last_.is_finite = false;

@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
-#include <haptic_sculpt/sculpting/first_impact.h>
+#include <haptic_sculpt/sculpting/contact/check_arguments.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_move.h>
 #include <haptic_sculpt/sculpting/axis_moves/Faces_on_the_way.h>
 #include <haptic_sculpt/surface/coordinate_range.h>

@@ -4,6 +4,7 @@
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/Sculptor_parameters.h>
+#include <haptic_sculpt/sculpting/contact/check_arguments.h>
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
@@ -70,12 +71,7 @@ void check_clearance(const Mesh& mesh, const std::optional<double>& clearance) {
 template <class Mesh>
 const Mesh& checked_scene(const Mesh& mesh, const Sculptor_parameters& parameters) {
   check_parameters(parameters);
-  for (const auto v : mesh.vertices()) {
-    const Coordinates p = vertex_coordinates(mesh, v);
-    // Of those that are no numbers the report of validate() names all.
-    if (!is_in_range(p) && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
-      throw_out_of_range("vertex " + std::to_string(static_cast<std::size_t>(v)) + " at", p);
-  }
+  check_points(mesh, If_not_finite::leave); // of which the report of validate() names all
   if (!parameters.is_known_valid || parameters.delta_length > 0) {
     Validity_report report = validate(mesh, parameters.delta_length);
     if (!report.is_valid())

@@ -66,7 +66,7 @@ public:
   /// Takes the candidate faces that are not incident to the star's centre; `region` is where the centre may be.
   /// \param corners_of gives a face's corners in the orientation of the mesh: Face_corners, or corners_in(mesh)
   /// \param is_known is called with each vertex as soon as it is known, before its point is read: to ask for memory
-  /// ahead \pre the link names no vertex twice, as on any mesh without doubled edges Cost: linear in the number of
+  /// ahead \pre the link names no vertex twice, as on any mesh without doubled edges. Cost: linear in the number of
   /// candidates.
   template <class Corners_of, class Is_known>
   void assign(const Mesh& mesh, const Corners_of& corners_of, const Star<Mesh>& star,

@@ -11,7 +11,7 @@ namespace haptic_sculpt::internal {
 
 /// New changes on their way to the records, at once or by trial.
 ///
-/// From begin_trial() to end_trial() shifts, or else moves, are no records yet: those that are made undone meanwhile
+/// From begin_trial() to end_trial() shifts, or else moves, are no records yet: those that are undone meanwhile
 /// never are, and clear nothing that could be redone. Another edit makes records of those that stand.
 class Edit_history : public Edit_records {
 public:

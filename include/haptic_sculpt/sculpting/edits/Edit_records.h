@@ -46,7 +46,6 @@ public:
     while (is_over())
       cut_last_step();
   }
-  const History_limit& limit() const { return limit_; }
   void forget() {
     const History_limit limit = limit_;
     set_limit(History_limit::off());
@@ -87,7 +86,7 @@ public:
   }
   /// The change that was taken back last; nullptr where there is none.
   const Change* to_redo() {
-    if (edits_done_ < edits_.end() && edits_[edits_done_].moves_before == moves_done_)
+    if (is_edit_next())
       return read(edits_[edits_done_]);
     return moves_done_ < moves_.end() ? read(moves_[moves_done_]) : nullptr;
   }
@@ -101,7 +100,7 @@ public:
   void redone() {
     if (is_between_steps())
       ++steps_done_;
-    ++(edits_done_ < edits_.end() && edits_[edits_done_].moves_before == moves_done_ ? edits_done_ : moves_done_);
+    ++(is_edit_next() ? edits_done_ : moves_done_);
   }
   /// Whether no step is done in part. One is only while its changes are taken back or made again, and for good where
   /// the Sculptor refuses every call.
@@ -233,6 +232,9 @@ private:
   bool is_edit_last() const {
     return edits_done_ > edits_.begin() && edits_[edits_done_ - 1].moves_before == moves_done_;
   }
+
+  /// Whether what was taken back last was an edit other than a move.
+  bool is_edit_next() const { return edits_done_ < edits_.end() && edits_[edits_done_].moves_before == moves_done_; }
 
   const Change* read(const Move& move) {
     current_.edit.kind = Edit_kind::move;

@@ -205,10 +205,10 @@ private:
   Pivot_order<Mesh> order_;
   Change change_; ///< the one that is made, kept to allocate no more
   bool has_changed_ = false; ///< the mesh, by the last change that was to be taken back or made again
-  bool is_reversing_ = false; ///< such changes are being made undone
+  bool is_reversing_ = false; ///< such changes are being reversed
 
   /// Takes a step back or makes it again, all of its changes or none: a part of a step need not be embedded. Where an
-  /// exception comes before the last change is made, those before it are made undone, and the stroke under way goes on.
+  /// exception comes before the last change is made, those before it are undone, and the stroke under way goes on.
   /// Else that has ended. \param next gives the next change
   template <class Next>
   Result go_through_step(Refusal_reason nothing, const Next& next, bool is_back) {
@@ -233,7 +233,7 @@ private:
     }
   }
 
-  /// Makes this many changes undone that were taken back or made again last. The visitor hears of it until it throws.
+  /// Reverses this many changes that were taken back or made again last. The visitor hears of it until it throws.
   void reverse(std::size_t changes, bool is_back) {
     bool is_tried_again = false; // the change at hand, as its record or a map has thrown before anything was written
     is_reversing_ = true;

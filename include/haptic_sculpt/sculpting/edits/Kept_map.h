@@ -41,7 +41,7 @@ public:
   virtual void dies(const Element& element, const Element_ids& ids) = 0;
   /// The mesh is about to change: what is to be allocated for the record is allocated here.
   /// \param first, number of the oldest edit in the history, and of this one; `no_id` where it is not recorded
-  /// \param is_new whether it is made for the first time \param is_reversal whether it is the one before made undone,
+  /// \param is_new whether it is made for the first time \param is_reversal whether it is the one before reversed,
   /// as that was broken off
   virtual void prepare(std::size_t first, std::size_t number, bool is_new, bool is_reversal) = 0;
   /// Each element that has been created, when the mesh is complete again.

@@ -48,7 +48,7 @@ public:
   }
 
   /// Where an edit stands in the history: the numbers of the oldest one there and of its own, which is `no_id` where
-  /// it is not recorded; whether it is made for the first time; whether it is the one before made undone, as that was
+  /// it is not recorded; whether it is made for the first time; whether it is the one before reversed, as that was
   /// broken off.
   struct Place {
     std::size_t first, number;

@@ -88,8 +88,8 @@ inline bool is_within_distance(const Coordinates& p, const Coordinates& a, const
 }
 
 /// A face on which p lies, or that is not farther from it than the clearance there; of several that of the smallest
-/// index, the null index where there is none. Exact. \param largest_coordinate bounds those of all vertices \param
-/// faces working memory
+/// index, the null index where there is none. Exact. \param largest_coordinate bounds those of all vertices
+/// \param faces working memory
 template <class Mesh, class Broad_phase>
 typename Mesh::Face_index find_face_within(const Mesh& mesh, Broad_phase& broad_phase, const Coordinates& p,
                                            const Clearance_rule& rule, double largest_coordinate,

@@ -21,8 +21,8 @@ int turn_along_x(const Coordinates& a, const Coordinates& b, const Coordinates& 
 }
 
 /// Whether p lies in an odd number of the components of a closed embedded surface: inside of a solid, not in its
-/// cavities, whichever way normals point. Exact, with no special position. \pre p does not lie on the surface \param
-/// faces working memory Cost: the query of the box of a ray, and its answer.
+/// cavities, whichever way normals point. Exact, with no special position. \pre p does not lie on the surface
+/// \param faces working memory. Cost: the query of the box of a ray, and its answer.
 template <class Mesh, class Broad_phase, class Counters>
 bool is_inside(const Mesh& mesh, Broad_phase& broad_phase, const Coordinates& p, Counters& counters,
                std::vector<typename Mesh::Face_index>& faces) {

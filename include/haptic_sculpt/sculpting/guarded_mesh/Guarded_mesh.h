@@ -5,7 +5,7 @@
 #include <haptic_sculpt/sculpting/contact/Scene_bound.h>
 #include <haptic_sculpt/sculpting/edits/Editor.h>
 #include <haptic_sculpt/sculpting/finding/Surface_finder.h>
-#include <haptic_sculpt/sculpting/first_impact.h>
+#include <haptic_sculpt/sculpting/contact/check_arguments.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Axis_move_at_hand.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Hand.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Inside_out_vertices.h>
@@ -270,7 +270,7 @@ public:
   }
 
   /// Moves vertices at once along one axis as far as that is free, as one change; each vertex is given once.
-  /// \pre they have been told to look_around(), and nothing else has moved since
+  /// \pre look_around() was called for them, and nothing else has moved since
   /// \param run who shares the work \param work of what may be decided, where it is not null \return false where more
   /// than `most_held` would be held back, or more be decided: then nothing has changed, and axis_move() knows why
   /// \throw Mesh_changed

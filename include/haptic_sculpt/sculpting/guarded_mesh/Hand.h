@@ -34,8 +34,8 @@ public:
     return true;
   }
 
-  /// Takes another vertex, having let go of the last. \param meanwhile is called while memory is waited for \throw
-  /// Mesh_changed
+  /// Takes another vertex, having let go of the last. \param meanwhile is called while memory is waited for
+  /// \throw Mesh_changed
   template <class Meanwhile>
   void take(Vertex_index v, bool once, const Meanwhile& meanwhile) {
     prefetch(&mesh_->point(v), sizeof(typename Mesh::Point));

@@ -100,10 +100,10 @@ private:
     // The other end of the line that the source is on, if it is on one.
     Vertex_index line_end;
     Constraint line;
-    for (const Vertex_index w : star.link)
-      if (const Edge_index e = mesh_.edge(mesh_.halfedge(w, star.centre));
-          w != target && state_.marks.is_constrained(e)) {
-        line_end = w;
+    for (std::size_t i = 0; i < star.valence(); ++i)
+      if (const Edge_index e = mesh_.edge(star.spoke(mesh_, i));
+          star.link[i] != target && state_.marks.is_constrained(e)) {
+        line_end = star.link[i];
         line = state_.marks.constraint(e);
       }
     if (line_end.is_valid())

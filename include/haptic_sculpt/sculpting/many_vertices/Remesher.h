@@ -208,9 +208,7 @@ private:
   }
 
   /// Whether the edge from the centre of the star at hand to link[i] is constrained.
-  bool is_crease(std::size_t i) const {
-    return marks_.is_constrained(mesh_.edge(mesh_.halfedge(state_.star.link[i], state_.star.centre)));
-  }
+  bool is_crease(std::size_t i) const { return marks_.is_constrained(mesh_.edge(state_.star.spoke(mesh_, i))); }
 
   bool is_smooth(const Coordinates& p) const {
     return is_smooth_at(state_.star, p, [this](std::size_t i) { return is_crease(i); });

@@ -40,7 +40,7 @@ public:
   /// above it, away from the target. The path begins and ends where it did. Returns whether there are fewer legs now.
   /// \param is_free(a, b) whether the straight way from a to b is free; every leg that is new has been asked
   ///        for. Called about a hundred times at most for straight ways, four hundred times for bent ones too
-  /// \param enough no more is tried once so few legs are left
+  /// \param enough no more is tried once this few legs are left
   template <class Is_free>
   bool shorten(const Vector& target, const Is_free& is_free, Ways ways, int enough = 1) {
     const std::array<Vector, most_legs + 1> old = points_;

@@ -63,6 +63,15 @@ struct Star {
     } while (h != first);
   }
 
+  /// The half-edge from link[i] to the centre, a side of faces[i]. Constant time, where Surface_mesh::halfedge() goes
+  /// round the centre.
+  typename Mesh::Halfedge_index spoke(const Mesh& mesh, std::size_t i) const {
+    auto h = mesh.halfedge(faces[i]);
+    while (mesh.target(h) != centre)
+      h = mesh.next(h);
+    return h;
+  }
+
   Swept_star_3 swept(const Coordinates& source, const Coordinates& target) const {
     return {source, target, link_points.data(), link_points.size()};
   }
