@@ -3,7 +3,6 @@
 
 #include "../common/mesh_program.h"
 
-#include <cstring>
 #include <iostream>
 
 namespace haptic_sculpt::window_program {
@@ -18,49 +17,6 @@ Application::Application(const Options& options, std::vector<Action> script)
 Application::~Application() {
   if (record_ != nullptr)
     std::fclose(record_);
-}
-
-void Application::open_first(int width, int height) {
-  view_size_ = {width, height};
-  enter(window_program::open(options_.mesh, options_.log_of(options_.mesh)));
-  if (!options_.record.empty()) // the last to be refused
-    record(options_.record);
-}
-
-void Application::enter(Opened opened) {
-  const auto leave_it = [this](Opened* it) { destroy_unseen(std::move(*it)); };
-  std::unique_ptr<Opened, decltype(leave_it)> unseen(&opened, leave_it); // where it cannot be shown
-  view_.show(opened.faces, opened.middle, view_size_[0], view_size_[1]);
-  frame();
-  const double extent = view_.camera().unscaled(2.0);
-  choices_.brush.radius = 0.12 * extent;
-  choices_.depth = 0.03 * extent;
-  if (!path_.empty()) {
-    opened_before_.push_back({"a mesh that was open before", path_});
-    opened_before_.push_back({"the log of '" + path_ + "'", log_});
-    for (const auto& saved : std::exchange(written_[static_cast<std::size_t>(Written::mesh)], {}))
-      opened_before_.push_back({"another mesh that was saved", saved.path});
-  }
-  path_ = opened.path, log_ = opened.log;
-  for (const std::string& open : {path_, log_})
-    while (const auto* const before = examples::same_file(open, opened_before_))
-      opened_before_.erase(opened_before_.begin() + (before - opened_before_.data()));
-  if (!options_.has_out)
-    options_.out = Options::sculpted_beside(path_);
-  kept_.push_back({log_, opened.resumed});
-  ++scene_;
-  pivot_.setZero();
-  has_failed_to_draw_ = false;
-  unseen.release();
-  thread_.enter(std::move(opened.model));
-  if (!choices_.slides)
-    thread_.choose_response(false);
-  frames_due_ = 3;
-  say("opened " + path_);
-  if (opened.resumed > 0)
-    say("made " + std::to_string(opened.resumed) + " edits of " + log_ + " again");
-  if (!opened.note.empty())
-    say(opened.note);
 }
 
 void Application::say(const std::string& text) {
@@ -192,119 +148,6 @@ void Application::on_resize(int width, int height) {
     view_.camera().resize(width, height), frame();
   }
   frames_due_ = 3;
-}
-
-/// A log stays that was asked for, or that has what nothing else has: what was done by the end, seen or not.
-void Application::leave(Model* model) {
-  const Kept kept = std::move(kept_.front());
-  kept_.pop_front();
-  const bool is_shown = kept_.empty(), was_asked_for = !options_.log.empty() && kept.log == options_.log;
-  const bool keeps_log = was_asked_for || (kept.is_unsaved(number_of_edits(*model)) && !(is_shown && discards_));
-  if (const std::string failure = destroy(model, keeps_log); keeps_log && !failure.empty())
-    fail_to_write(failure);
-}
-
-/// Its log stays where there was something in it.
-void Application::destroy_unseen(Opened opened) {
-  destroy(opened.model.release(), opened.resumed > 0 || (!options_.log.empty() && opened.log == options_.log));
-}
-
-/// What has been opened when the window ends.
-void Application::leave_unseen() {
-  try {
-    if (auto opened = background_.take_opened())
-      destroy_unseen(std::move(*opened));
-  } catch (const std::exception&) { // nobody waits for it any more
-  }
-}
-
-/// Of the loop.
-void Application::take_answers() {
-  for (Seen_face change; thread_.take(change);)
-    if (change.scene + 1 == scene_)
-      view_.change(change), frames_due_ = 3;
-  for (Report report; thread_.take(report);) {
-    switch (report.kind) {
-    case Report::Kind::refused:
-      refuse(report.text);
-      break;
-    case Report::Kind::beside:
-      turns_ = button_ == 0;
-      break;
-    case Report::Kind::left:
-      left_.push_back(report.model);
-      break;
-    case Report::Kind::copied: {
-      Background::Saved saved = std::move(to_save_.front());
-      to_save_.pop_front();
-      saved.edits = report.edits;
-      if (report.copy)
-        background_.save(report.copy, std::move(saved));
-      else if (report.outgrown && saved.scene == scene_) // in turn again, now that it is known how large it is
-        ask_for_copy(std::move(saved));
-      else
-        fail_to_write("'" + saved.path + "' is not saved: " + report.text);
-      break;
-    }
-    }
-  }
-  for (Model* const model : std::exchange(left_, {}))
-    leave(model); // another was opened
-}
-
-void Application::take_reports() {
-  take_answers();
-  const auto keep_what_is_shown = [this] {
-    fail_to_open("'" + opening_.front().path + "' is not opened: " + examples::message_of(std::current_exception()),
-                 opens_for_script_);
-  };
-  try {
-    const bool is_at_work = button_ == 0 || status_.hold != Hold::nothing || !thread_.has_done_all() ||
-                            !to_save_.empty() || background_.is_saving();
-    if (auto opened = is_at_work ? std::nullopt : background_.take_opened()) { // else edits are yet to be counted
-      const std::string path = opened->path;
-      if (is_unsaved() && edits() != edits_when_opening_) {
-        destroy_unseen(std::move(*opened));
-        next_open_ = {path, edits()};
-        note_file("open", path);
-        fail_to_open("'" + path +
-                         "' is not opened, for there is work since that was asked for: save it, or drop the file "
-                         "once more to leave it",
-                     opens_for_script_);
-      } else {
-        enter(std::move(*opened));
-        note_file("open", path); // here: what the hand did meanwhile was done to the mesh before
-      }
-    }
-  } catch (const drawing::Picture_error&) {
-    keep_what_is_shown();
-  } catch (const Error& error) { // names the file
-    fail_to_open(examples::message_of(error), opens_for_script_);
-  } catch (const std::exception&) { // such as no memory for it
-    keep_what_is_shown();
-  }
-  if (!background_.is_opening() && to_open_.empty())
-    opening_.clear();
-  take_saved();
-}
-
-void Application::take_saved() {
-  while (const auto saved = background_.take_saved()) {
-    try {
-      if (saved->error)
-        std::rethrow_exception(saved->error);
-      say("saved " + saved->path + (saved->lost.empty() ? "" : ": " + saved->lost));
-      if (saved->scene != scene_)
-        continue; // another was opened meanwhile
-      kept_.back().is_saved = true, kept_.back().saved_edits = saved->edits;
-      if (saved->quits) // where there is work since, it is asked once more
-        note("close"), is_leaving_ = true, to_open_.clear();
-    } catch (const Error& error) {
-      fail_to_write(examples::message_of(error));
-    } catch (const std::exception&) {
-      fail_to_write("'" + saved->path + "' is not saved: " + examples::message_of(std::current_exception()));
-    }
-  }
 }
 
 void Application::step() {
