@@ -75,8 +75,9 @@ public:
   /// \param unit what a shard is a share of, for `--help`: "population"
   Benchmark_program(std::string name, CLI::App& app, const std::string& unit) : name_(std::move(name)), app_(app) {
     app.add_option("--json", file_, "Where the report goes");
-    app.footer("Exit: 0 all kept, 1 out of memory or a fault of the program, 2 usage, 5 the report or standard output "
-               "cannot be written; others name a promise that broke.");
+    app.footer(
+        "Exit: 0 all kept, 1 out of memory or a fault of the program, 2 usage, 5 the report, a case of --dump or "
+        "standard output cannot be written; others name a promise that broke.");
     shard.add_option(app, unit);
   }
 
@@ -130,7 +131,7 @@ private:
       report["promises"] = promises.json();
       report["exit"] = promises.exit();
       if (promises.exit() != all_kept)
-        say(promises.first_broken() + "; please report it with this command");
+        say(promises.first_broken() + (promises.exit() == cannot_write ? "" : "; please report it with this command"));
       write(report);
       return promises.exit();
     } catch (const CLI::ParseError& error) {

@@ -42,7 +42,10 @@ def minimise(out, names, sculpt):
         said = {0: done.stdout.split(" tries")[0] + " tries",
                 1: "replayed by sculpt it does not fail: robustness alone judges what did"}
         otherwise = f"{CUT_SHORT} {done.returncode}: {done.stderr.strip()[-300:]}"
-        note.write_text(said.get(done.returncode, otherwise) + "\n")
+        try:
+            note.write_text(said.get(done.returncode, otherwise) + "\n")
+        except OSError as error:  # a full disk: the same command tries again
+            print(f"{note}: {error}", file=sys.stderr)
 
 
 def rows(out, names):

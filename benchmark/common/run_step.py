@@ -22,10 +22,14 @@ import time
 import ends_with_parent
 import steps
 
+CANNOT_WRITE = 5  # of a program, and no promise is broken
+
 
 def told(code, minutes):
     if code is None:
         return f"had not ended after its {minutes:g} minutes"
+    if code == CANNOT_WRITE:
+        return "could not write"
     return f"was ended by signal {-code}" if code < 0 else f"ended with exit code {code} and no report"
 
 
@@ -128,8 +132,8 @@ def main():
             report = json.loads(unfinished.read_text())
         except (OSError, ValueError):
             report = None
-        if report is not None and code != report.get("exit", 0):
-            report = None  # it died after it had written
+        if report is not None and (code != report.get("exit", 0) or code == CANNOT_WRITE):
+            report = None  # it died after it had written, or lacks cases that a full disk has not taken
     if report is None:
         return died(options, told(code, minutes), seconds, shown)
     if digest:

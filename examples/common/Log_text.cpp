@@ -309,8 +309,19 @@ Settings Log_contents::last_settings() const {
   return settings;
 }
 
-std::string_view whole_lines_of(std::string_view text) {
-  return begins_with(text, version_word) ? text.substr(0, text.rfind('\n') + 1) : text;
+std::string_view whole_commands_of(std::string_view text) {
+  if (!begins_with(text, version_word))
+    return text;
+  const std::string_view whole = text.substr(0, text.rfind('\n') + 1);
+  for (std::size_t end = whole.size(); end > 0;) { // of a shift the lines of its vertices begin with digits
+    const std::size_t begin = end > 1 ? whole.rfind('\n', end - 2) + 1 : 0;
+    if (begins_with(whole.substr(begin), "shift "))
+      return whole.substr(0, begin);
+    if (whole[begin] < '0' || whole[begin] > '9')
+      break;
+    end = begin;
+  }
+  return whole;
 }
 
 void check_begin_of_log(std::string_view text, const std::string& name) {

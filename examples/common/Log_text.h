@@ -84,9 +84,9 @@ struct Log_contents {
 /// \throw Foreign_log if it does not begin as a log does
 void check_begin_of_log(std::string_view text, const std::string& name);
 
-/// Of a log the lines that end, for a killed process may have left part of one, which reads as another command; any
-/// other text as it is.
-std::string_view whole_lines_of(std::string_view text);
+/// Of a log the commands that end: a killed process may have left part of a line, which reads as another command, or of
+/// a shift. Any other text as it is.
+std::string_view whole_commands_of(std::string_view text);
 
 /// Returns none where the text ends within the head: no edit is in it.
 /// \param name how messages call the log \param mesh the hash that it has to begin with

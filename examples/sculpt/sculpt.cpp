@@ -48,9 +48,9 @@ Script script_of(const Arguments& arguments, Result_writer& writer) {
   if (arguments.script.empty())
     return {};
   const std::string text = examples::contents_of<Script_error>(arguments.script, "the script");
-  const std::string_view whole = examples::whole_lines_of(text);
+  const std::string_view whole = examples::whole_commands_of(text);
   if (whole.size() != text.size())
-    writer.note("'" + arguments.script + "' is a log whose last line is unfinished: that is left out");
+    writer.note("'" + arguments.script + "' is a log whose last command is unfinished: that is left out");
   return {read_script(whole, arguments.script), Sha256().add(text).digest()};
 }
 

@@ -121,8 +121,8 @@ void run_by_polling(Loop& loop, double unplugged) {
 int main(int argc, char** argv) try {
   if (argc != 2)
     return std::cerr << "usage: adapters_of_devices MESH\n", 2;
-  for (const int signal : {SIGINT, SIGTERM})
-    std::signal(signal, [](int) { is_ended = 1; });
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(signal, [](int s) { is_ended = 1, std::signal(s, SIG_DFL); }); // a second one ends it at once
   bool is_right = true;
   for (const int kind : {0, 1, 2, 3}) {
     Scene scene(read_surface<Mesh>(argv[1]), [](const auto& lower, const auto& upper) {

@@ -115,7 +115,8 @@ def stopped(folder, mesh, lines, faults):
             tries.write_text("")
             (folder / "interrupts").touch()
         going = subprocess.Popen([*map(str, words), "--out", folder / name, *map(str, options)],
-                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                 preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
         try:
             out, err = going.communicate(timeout=100)
         except subprocess.TimeoutExpired:

@@ -151,12 +151,14 @@ BOOST_AUTO_TEST_CASE(inverse_of_the_mirror_case_bears_the_rounding_of_straight_l
     BOOST_TEST((higher.status() == Device_status::unreachable));
     BOOST_TEST((higher.shortfall() > 0 && higher.shortfall() < 2e-14));
   }
-  // Leg 0 points along x: of an apex above the middle of its triangle's foot the cosine is |p|^2 + r^2 + l1^2 - l2^2
-  // over 2 l1 times the distance, by the law of cosines.
+  // Above the base's centre elbows that halve the way are as high as half of it: the sine of l1's angle is that over
+  // l1.
   const Device_description<double> d = named_design<double>(Named_design::D3, Device_form::general);
-  const double height = 2 * (d.primary_length + d.secondary_length), r = d.base_radius;
-  const auto far = mirror_inverse(Device_parameters<double>(d), Vector(0, 0, height));
-  BOOST_TEST_MESSAGE("shortfall at " << height << " m: " << far.shortfall() << ", r " << r);
+  for (const double height : {2.5 * d.primary_length, 7.0 * d.primary_length}) {
+    const auto far = mirror_inverse(Device_parameters<double>(d), Vector(0, 0, height));
+    BOOST_TEST((far.status() == Device_status::unreachable));
+    BOOST_TEST(std::abs(far.shortfall() - (height / (2 * d.primary_length) - 1)) < 1e-12);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -135,7 +135,11 @@ def shifts(folder, mesh):
             elif words(line)[:1] == [b"shift"]:
                 begin, left = i, int(words(line)[2]) + 1
         kept = b"".join(kept[:begin])
+        as_script = f"{folder}/as_script.off"
+        done = run(mesh, "-o", as_script, "--script", cut)
+        check(done.returncode == 0 and ("unfinished" in done.stderr) == (kept != complete[:length]), f"cut at {length} as a script: {done.stderr}")
         check(run(mesh, "-o", again, "--log", cut).returncode == 0 and bytes_of(cut) == kept, f"cut at {length}: what is left of a shift is dropped")
+        check(bytes_of(again) == bytes_of(as_script), f"cut at {length}: as a script it gives another mesh")
         done = run(mesh, "-o", again, "--log", cut, "--script", script)
         check(done.returncode == 0 and bytes_of(again) == expected, f"cut at {length} goes on to another mesh: {done.stderr}")
         check(bytes_of(cut) == complete, f"cut at {length}: the log ends otherwise than without the break")

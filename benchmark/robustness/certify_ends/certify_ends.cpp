@@ -86,8 +86,6 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
       rows.back()["unit"] = 2 * family + is_kept_deformed;
     }
   Json totals = Json::array();
-  if (unwritten != 0)
-    promises.add(benchmark::cannot_write, "cases are written to the folder of --dump", unwritten, unwritten);
   promises.add(not_embedded, "the mesh is embedded", parts.validations + near_degenerate.validations,
                parts.invalid + near_degenerate.invalid);
   for (const auto& [name, tally, share] :
@@ -99,6 +97,8 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
       continue;
     totals.push_back(row(name, tally));
   }
+  if (unwritten != 0)
+    promises.add(benchmark::cannot_write, "cases are written to the folder of --dump", unwritten, unwritten);
   std::cout << "seed " << options.seed << ", shard " << shard.text() << ", exit " << promises.exit() << '\n';
   return {
       {"seed", options.seed}, {"drags", options.drags}, {"ways", options.ways}, {"families", rows}, {"total", totals}};
