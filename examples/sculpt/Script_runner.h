@@ -3,7 +3,6 @@
 
 #include "Move_lines.h"
 #include "Progress.h"
-#include "nearest_vertices.h"
 #include "Run_result.h"
 
 #include "../common/Usage_error.h"
@@ -11,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <set>
 
@@ -83,14 +83,11 @@ private:
   }
 
   /// The line as it is logged: with vertices by number.
-  Command with_vertices_found(Command command) const {
-    std::vector<std::size_t> all;
-    add_numbers(all);
+  Command with_vertices_found(Command command) {
     for (const Command::Place& place : command.places) {
-      const auto point_of = [this](std::size_t name) { return mesh_.point(sculptor_.vertex(name)); };
       const bool is_shift = command.kind == Kind::edit && command.edit.kind == Edit_kind::shift;
       std::size_t& vertex = is_shift ? command.edit.ways[place.which].first : command.edit.vertices[place.which];
-      vertex = nearest_vertices(all, point_of, point(place.point), 1).at(0);
+      vertex = sculptor_.id(sculptor_.nearest_vertex(point(place.point), std::numeric_limits<double>::infinity()));
     }
     command.places.clear();
     return command;

@@ -96,13 +96,16 @@ drawing::Scene scene_with_pairs(const Mesh& mesh, const Pairs& pairs) {
   drawing::Scene scene;
   scene.edge_opacity = 0;
   const auto open = drawing::openness(mesh);
+  std::vector<Eigen::Vector3d> normals(mesh.num_vertices());
+  for (const auto v : mesh.vertices())
+    normals[v] = drawing::to_eigen(vertex_normal(mesh, v));
   for (const auto f : mesh.faces()) {
     std::array<int, 3> corners;
     int i = 0;
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
       corners[i++] = static_cast<int>(scene.points.size());
       scene.points.push_back(drawing::to_eigen(mesh.point(v)));
-      scene.point_normals.push_back(drawing::to_eigen(vertex_normal(mesh, v)));
+      scene.point_normals.push_back(normals[v]);
       scene.point_colors.push_back(pairs.is_red[f] ? drawing::colors::red : open[v] * drawing::colors::surface);
     }
     scene.triangles.push_back(corners);

@@ -55,16 +55,23 @@ Seen_face Model::face(std::uint32_t index) const {
   if (!face.is_there)
     return face;
   const double cosine_of_crease = 0.7; // of 45 degrees, between the normals of two faces
+  constexpr std::size_t most_faces = 256; // about a vertex whose normal is smoothed
   const Face_index own(index);
   const Eigen::Vector3d normal = normal_of(own);
   auto h = mesh.prev(mesh.halfedge(own)); // its target is the first corner
   for (std::size_t i = 0; i < 3; ++i, h = mesh.next(h)) {
     Eigen::Vector3d sum = normal;
-    for (const Face_index f : mesh.faces_around_target(h))
+    std::size_t seen = 0;
+    for (const Face_index f : mesh.faces_around_target(h)) { // from h on, whose face is this one
       if (f != own)
         if (const Eigen::Vector3d other = normal_of(f);
             other.dot(normal) > cosine_of_crease * other.norm() * normal.norm())
           sum += other;
+      if (++seen == most_faces) { // a hub: each of its faces would look at all
+        sum = normal;
+        break;
+      }
+    }
     const Eigen::Vector3f unit = sum.stableNormalized().cast<float>();
     face.normals[i] = {unit[0], unit[1], unit[2]};
     face.masks[i] = float(mask[mesh.target(h)]);

@@ -38,6 +38,21 @@ public:
       be_at(from + (to - from) * k / steps);
   }
 
+  /// The wall goes away. \return the most by which the force rises in a tick, and changes
+  std::pair<double, double> lose_the_wall() {
+    has_wall_ = false;
+    double rise = 0, change = 0;
+    for (int k = 0; k < 100; ++k) {
+      const Vector3d before = loop_.rendered().force;
+      be_at(place_);
+      rise = std::fmax(rise, loop_.rendered().force.norm() - before.norm());
+      change = std::fmax(change, (loop_.rendered().force - before).norm());
+    }
+    BOOST_TEST(loop_.rendered().force == Vector3d::Zero());
+    has_wall_ = true;
+    return {rise, change};
+  }
+
 private:
   Device_parameters<double> device_;
   Haptic_parameters parameters_;
@@ -45,7 +60,7 @@ private:
   Device_pose<double> home_, pose_;
   Vector3d place_, torque_ = Vector3d::Zero();
   Interaction<Joint_side> loop_;
-  bool is_first_ = true;
+  bool is_first_ = true, has_wall_ = true;
   double given_ = 0, most_force_ = 0;
 
   void be_at(const Vector3d& place) {
@@ -61,7 +76,7 @@ private:
     if (loop_.fault() == Loop_fault::none && loop_.follow(reading)) {
       Touch touch;
       const double depth = normal_.dot(home() - place);
-      if (depth > 0)
+      if (depth > 0 && has_wall_)
         touch.way = depth * normal_, touch.is_free = false, touch.span.add(normal_);
       loop_.render(touch);
     }
@@ -112,6 +127,11 @@ BOOST_AUTO_TEST_CASE(no_energy_comes_of_where_the_motors_have_more_room) {
   BOOST_TEST(run.most_force() < least + 0.1);
   run.go(strong + depth);
   BOOST_TEST(run.most_force() > least + 0.5);
+  // Where the proxy falls, what is left of the force does not rise to what the motors had no room for.
+  run.go(strong + air), run.go(weak + air), run.go(weak + depth), run.go(strong + depth);
+  const auto [rise, change] = run.lose_the_wall();
+  BOOST_TEST(rise < 1e-12);   // N, by rounding
+  BOOST_TEST(change < 0.301); // N: 300 N/s
 }
 
 // The same of the share by cond(J): fading from a stiff wall to a soft one gives nothing either.
@@ -138,6 +158,10 @@ BOOST_AUTO_TEST_CASE(no_energy_comes_of_where_the_force_fades_less) {
   BOOST_TEST((run.fault() == Loop_fault::none));
   BOOST_TEST(run.given() < 0.001); // J
   BOOST_TEST_MESSAGE("given to the hand: " << run.given() << " J");
+  run.go(weak + air), run.go(weak + depth), run.go(strong + depth);
+  const auto [rise, change] = run.lose_the_wall();
+  BOOST_TEST(rise < 1e-12);   // N, by rounding
+  BOOST_TEST(change < 0.301); // N: 300 N/s
 }
 
 BOOST_AUTO_TEST_SUITE_END()

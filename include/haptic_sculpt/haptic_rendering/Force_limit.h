@@ -13,8 +13,8 @@ struct Force_limits {
   double largest = 5;         ///< norm of the force, N
   double slew = 300;          ///< its change, N/s, beside what the hand's own way changes: Force_chain
   double full_condition = 10; ///< cond(J) up to which the whole force is rendered
-  /// cond(J) from which nothing is: encoder steps turn the force by degrees there. Where it is full_condition, a touch
-  /// ends at once as the hand comes there.
+  /// cond(J) from which nothing is: encoder steps turn the force by degrees there. Where it is full_condition, the
+  /// force of a touch ends at once as the hand comes there.
   double no_condition = 20;
   double ramp_time = 0.3;     ///< from 0 to the whole force after a start, s
   double fade_time = 0.1;     ///< to 0 on a fault, s

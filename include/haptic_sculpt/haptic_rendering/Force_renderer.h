@@ -43,7 +43,7 @@ public:
                                bool is_touched) {
     const Eigen::Vector3d force = chain_.follow(wanted, way, elapsed);
     carried_ = std::fmin(1.0, carried_ + chain_.tick() / chain_.limits().ramp_time);
-    if (!is_touched)
+    if (!is_touched && !chain_.is_behind()) // else what is left of the last touch would rise
       begin_touch();
     share_ = std::fmin(share_, share_at(handle));
     in_room(handle, clamped(force * share_, room_));

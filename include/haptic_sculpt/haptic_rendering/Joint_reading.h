@@ -10,7 +10,8 @@ struct Joint_reading {
   Eigen::Vector3d theta = Eigen::Vector3d::Zero();  ///< joint angles as the encoders tell, rad
   Eigen::Vector3d torque = Eigen::Vector3d::Zero(); ///< of the motors, N m, where they are measured; else 0
   int button = 0;                                   ///< 0: none, 1: grab or create, 2: remove
-  double elapsed = 0; ///< since the last reading, s, by a clock; does not count at the first
+  /// Since the last reading, s, by a clock. Does not count at the very first; after a restart a stall does.
+  double elapsed = 0;
 };
 
 } // namespace haptic_sculpt

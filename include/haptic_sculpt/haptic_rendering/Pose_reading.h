@@ -9,7 +9,8 @@ namespace haptic_sculpt {
 struct Pose_reading {
   Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< of the handle, m, in axes of the device
   int button = 0;                                     ///< 0: none, 1: grab or create, 2: remove
-  double elapsed = 0; ///< since the last reading, s, by a clock; does not count at the first
+  /// Since the last reading, s, by a clock. Does not count at the very first; after a restart a stall does.
+  double elapsed = 0;
 };
 
 } // namespace haptic_sculpt

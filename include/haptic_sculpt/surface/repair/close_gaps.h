@@ -96,11 +96,12 @@ private:
                                                           CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
     std::vector<Box> boxes;
     for (std::size_t v = 0; v < soup_.points.size(); ++v)
-      if (is_open_[v]) { // as wide as twice the gap: two boxes meet if their points are near, whatever is rounded
+      if (is_open_[v]) { // half as wide would do: two boxes meet if their points are near, whatever is rounded
+        const double reach = reach_at(v);
         std::array<double, 3> lower, upper;
         for (int k = 0; k < 3; ++k) {
-          lower[k] = soup_.points[v][k] - gap_;
-          upper[k] = soup_.points[v][k] + gap_;
+          lower[k] = soup_.points[v][k] - reach;
+          upper[k] = soup_.points[v][k] + reach;
         }
         boxes.emplace_back(CGAL::Bbox_3(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]), v);
       }
@@ -113,6 +114,16 @@ private:
       if (d <= squared_gap && (!spares_edges_ || (spares_edges_at(a->info(), d) && spares_edges_at(b->info(), d))))
         function(a->info(), b->info());
     });
+  }
+
+  /// Farther away nothing is that v may become one with, where edges are spared: by one point far from all others the
+  /// gap may be as long as a mesh.
+  double reach_at(std::size_t v) const {
+    double reach = gap_;
+    if (spares_edges_)
+      for (const std::size_t w : neighbours_[v])
+        reach = std::min(reach, distance_between(soup_.points[v], soup_.points[w]));
+    return reach;
   }
 
   bool spares_edges_at(std::size_t v, const Number& squared) const {
