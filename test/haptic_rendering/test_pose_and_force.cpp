@@ -71,7 +71,8 @@ private:
     if (!is_first_)
       given_ += torque_.dot(pose_.theta - before);
     Joint_reading reading;
-    reading.theta = pose_.theta, reading.torque = torque_, reading.elapsed = is_first_ ? 0 : parameters_.tick;
+    reading.theta = pose_.theta, reading.torque = loop_.rendered().torque,
+    reading.elapsed = is_first_ ? 0 : parameters_.tick;
     is_first_ = false;
     if (loop_.fault() == Loop_fault::none && loop_.follow(reading)) {
       Touch touch;

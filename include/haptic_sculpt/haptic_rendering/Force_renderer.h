@@ -6,6 +6,8 @@
 #include <haptic_sculpt/haptic_rendering/loop/Force_chain.h>
 #include <haptic_sculpt/haptic_rendering/Handle_motion.h>
 
+#include <utility>
+
 namespace haptic_sculpt {
 
 /// What carries the mechanism's weight, so that the hand need not.
@@ -23,8 +25,9 @@ struct Rendered_force {
 /// From a wanted force to torques: the chain of all devices, fading by cond(J), gravity compensation, room of the
 /// motors. No allocation.
 ///
-/// While something is touched, the share by the pose and what the motors had room for only fall: a spring that is
-/// pressed where they are small and let go of where they are large would give energy that no hand has put in.
+/// While something is touched or a snap pulls, the share by the pose and what the motors had room for only fall: a
+/// spring that is pressed where they are small and let go of where they are large would give energy that no hand has
+/// put in.
 class Force_renderer {
 public:
   /// Begins at a force of 0. \param tick s \param friction that the coupling needs at the handle, N s/m: where the
@@ -38,14 +41,16 @@ public:
     return render(handle, wanted, handle.step().norm(), chain_.tick(), false);
   }
   /// \param way of the handle that made it what it is, m \param elapsed since the last tick, s \param is_touched
-  /// whether something pushes
+  /// whether something pushes, or a snap pulls
   const Rendered_force& render(const Handle_motion& handle, const Eigen::Vector3d& wanted, double way, double elapsed,
                                bool is_touched) {
+    const double share = share_at(handle);
+    if (!is_touched && std::exchange(was_touched_, false)) // what the hand has not felt does not come now
+      chain_.cut_to(last_.force.norm() / share), begin_touch();
+    was_touched_ = is_touched;
     const Eigen::Vector3d force = chain_.follow(wanted, way, elapsed);
     carried_ = std::fmin(1.0, carried_ + chain_.tick() / chain_.limits().ramp_time);
-    if (!is_touched && !chain_.is_behind()) // else what is left of the last touch would rise
-      begin_touch();
-    share_ = std::fmin(share_, share_at(handle));
+    share_ = is_touched ? std::fmin(share_, share) : share;
     in_room(handle, clamped(force * share_, room_));
     if (!last_.force.allFinite() || !last_.torque.allFinite())
       last_ = Rendered_force(), last_.is_finite = false;
@@ -86,6 +91,7 @@ private:
   double carried_ = 1; ///< the share of the weight that the motors carry: all of it from the start on
   /// Since nothing was touched: the least share_at(), and the least force, N, for which motors had no more room.
   double share_ = 1, room_ = std::numeric_limits<double>::infinity();
+  bool was_touched_ = false; ///< in the last tick
   Rendered_force last_;
 
   void begin_touch() { share_ = 1, room_ = std::numeric_limits<double>::infinity(); }
@@ -113,7 +119,7 @@ private:
                           torque = handle.jacobian().linear.transpose() * force;
     const double limit = handle.parameters().torque_limit(), share = share_in_room(torque, weight, limit);
     last_.force = share * force;
-    if (share < 1)
+    if (share < 1 && was_touched_)
       room_ = last_.force.norm();
     last_.interaction_torque = share * torque;
     last_.torque = (weight + last_.interaction_torque).cwiseMax(-limit).cwiseMin(limit);

@@ -26,9 +26,7 @@ public:
   Eigen::Vector3d follow(const Eigen::Vector3d& wanted, double way, double elapsed) {
     ramp_ = next_ramp();
     const double change = limits_.slew * std::fmin(tick_, elapsed) + change_of_way_ * way;
-    const Eigen::Vector3d aim = clamped(wanted, limits_.largest);
-    const Eigen::Vector3d& followed = slew_.follow(aim, change);
-    is_behind_ = followed != aim;
+    const Eigen::Vector3d& followed = slew_.follow(clamped(wanted, limits_.largest), change);
     return ramp_ * clamped(followed + burst_.next(), limits_.largest);
   }
   /// The share of the last force that is left, one tick after a fault later. \param elapsed s; at least a tick counts
@@ -36,7 +34,8 @@ public:
   double left() const { return fade_.share(); }      ///< that share in the last tick; 1 without a fault
   bool has_faded() const { return fade_.is_over(); } ///< the share has come to 0
 
-  bool is_behind() const { return is_behind_; } ///< the slew limit holds what was wanted last
+  /// Of the last force no more than this has come to the hand: the next one follows that. \param force norm, N
+  void cut_to(double force) { slew_.cut_to(ramp_ > 0 ? force / ramp_ : 0); }
 
   /// A refused edit is felt. \param direction in axes of the device \param mobility of the free handle there, 1/kg
   void refuse(const Eigen::Vector3d& direction, double mobility) { burst_.begin(direction, mobility); }
@@ -56,7 +55,6 @@ private:
   Slew_limit slew_;
   Refusal_burst burst_;
   double change_of_way_; ///< N/m
-  bool is_behind_ = false;
 
   static double change_of_way(const Virtual_coupling& coupling) {
     return coupling.stiffness + Velocity_estimate::change_of_way(coupling.damping);

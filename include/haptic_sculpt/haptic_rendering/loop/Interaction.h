@@ -34,6 +34,7 @@ public:
       : side_(side)
       , coupling_(parameters.coupling)
       , stiffness_(parameters.stiffest().stiffness)
+      , largest_(parameters.limits.largest)
       , reserve_(reserve_of(parameters.limits))
       , watchdog_(limits_for(side, parameters.watchdog), parameters.tick, side.effort_limit())
       , observer_(parameters.delay, parameters.tick, side.friction(), side.resolution(), parameters.snap.energy())
@@ -71,12 +72,12 @@ public:
                     : Eigen::Vector3d(Eigen::Vector3d::Zero());
     wanted_ = spring_ + touch.snap + coupling_.damping_force(touch.span, side_.velocity(), !pulls);
     if (!touch.is_starved) // what the spring holds is not known then
-      observer_.forget_beyond(reserve_ + (pulls ? 0.5 * stiffness_ * touch.way.squaredNorm() : 0) +
+      observer_.forget_beyond(reserve_ + (pulls ? held_energy(touch.way.norm()) : 0) +
                               virtual_mass_.held_energy(side_.velocity()));
     if (side_.has_force())
       wanted_ += virtual_mass_.force(side_.step(), elapsed_, touch.holds) +
                  controller_.force(observer_, side_.step(), elapsed_);
-    render_wanted(touch.is_starved ? 0 : side_.step().norm(), !touch.is_free);
+    render_wanted(touch.is_starved ? 0 : side_.step().norm(), !touch.is_free || !touch.snap.isZero(0));
   }
   /// No force is wanted, after follow(): what is left goes as fast as the slew limit lets it. Neither burst nor virtual
   /// mass nor controller has a say.
@@ -132,6 +133,7 @@ private:
   Side side_;
   Virtual_coupling coupling_;
   double stiffness_; ///< of all that a scene does, N/m
+  double largest_;   ///< force, N
   double reserve_;   ///< what may come back beside the spring, J
   Watchdog watchdog_;
   Passivity_observer observer_;
@@ -151,6 +153,12 @@ private:
       watchdog_.report(Loop_fault::torque);
     if (!rendered_.is_finite)
       watchdog_.report(Loop_fault::not_finite);
+  }
+
+  /// What the spring gives back at most as a hand comes out, its force clamped. \param way of the spring, m \return J
+  double held_energy(double way) const {
+    const double force = std::fmin(stiffness_ * way, largest_);
+    return force * (way - 0.5 * force / std::fmax(stiffness_, std::numeric_limits<double>::min()));
   }
 
   /// The share of the spring that is rendered. Where it gets stiffer while a hand presses it, under a ramp, or is back

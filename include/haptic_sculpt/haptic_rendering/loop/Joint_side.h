@@ -33,7 +33,7 @@ public:
   const Eigen::Vector3d& effort_step() const { return handle_.joint_step(); } ///< what efforts work on, rad
 
   /// \param wanted N \param way of the handle that made it, m \param elapsed since the last tick, s
-  /// \param is_touched whether something pushes
+  /// \param is_touched whether something pushes, or a snap pulls
   const Rendered_force& render(const Eigen::Vector3d& wanted, double way, double elapsed, bool is_touched) {
     return renderer_.render(handle_, wanted, way, elapsed, is_touched);
   }
