@@ -22,6 +22,15 @@ public:
     }
   }
 
+  /// Cases that a full disk has not taken: they break no promise, and give the exit code where none is broken. \pre all
+  /// promises are there
+  void add_unwritten(int exit, std::size_t cases) {
+    if (exit_ == 0 && cases != 0) {
+      exit_ = exit;
+      first_broken_ = std::to_string(cases) + " cases could not be written";
+    }
+  }
+
   /// 0 where all are kept.
   int exit() const { return exit_; }
   /// For people; empty where all are kept.

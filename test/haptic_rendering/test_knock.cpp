@@ -101,10 +101,12 @@ BOOST_AUTO_TEST_CASE(what_the_proxy_does_is_slewed_and_what_the_hand_does_is_not
   const Vector3d now = (1.7 + 0.3 + 0.5 + damper) * up; // an early tick may change it less, a late one no more
   BOOST_TEST((chain.follow(9 * up, 0, 0.0002) - now - 0.06 * up).norm() <= 1e-12);
   BOOST_TEST((chain.follow(9 * up, 0, 0.005) - now - 0.36 * up).norm() <= 1e-12);
-  chain.cut_to(1); // more has not come to the hand
+  const Vector3d last = chain.follow(2 * up, 0.01, 0.001); // a step of the hand that lets it all through
+  BOOST_TEST((last - 2 * up).norm() <= 1e-12);
+  chain.cut_to(0.5); // more has not come to the hand
   BOOST_TEST((chain.follow(0 * up, 0, 0.001) - 0.7 * up).norm() <= 1e-12);
-  chain.cut_to(1);
-  BOOST_TEST((chain.follow(0 * up, 0, 0.001) - 0.4 * up).norm() <= 1e-12);
+  chain.cut_to(0);
+  BOOST_TEST(chain.follow(0 * up, 0, 0.001) == 0 * up);
 }
 
 BOOST_AUTO_TEST_CASE(a_device_that_gives_energy_ends_as_a_fault) {

@@ -53,6 +53,13 @@ public:
     return {rise, change};
   }
 
+  double force() const { return loop_.rendered().force.norm(); }
+  double most_force_since() const { return most_force_; } ///< the wall went
+  void lose_the_wall_on_the_way_to(const Vector3d& to) {
+    has_wall_ = false, most_force_ = 0;
+    go(to);
+  }
+
 private:
   Device_parameters<double> device_;
   Haptic_parameters parameters_;
@@ -163,6 +170,32 @@ BOOST_AUTO_TEST_CASE(no_energy_comes_of_where_the_force_fades_less) {
   const auto [rise, change] = run.lose_the_wall();
   BOOST_TEST(rise < 1e-12);   // N, by rounding
   BOOST_TEST(change < 0.301); // N: 300 N/s
+}
+
+// Where it fades to nothing, whatever it was, nothing is left of it as the touch ends.
+BOOST_AUTO_TEST_CASE(what_has_not_been_felt_does_not_come_when_the_touch_ends) {
+  Device_description<double> d = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
+  d.viscous_friction = 0.005, d.torque_limit = 10;
+  const Device_parameters<double> parameters(d);
+  const Device_pose<double> home = *home_pose(parameters);
+  const double radius = 0.8 * workspace_radius(parameters, home);
+  const Vector3d there = home.position + radius * Vector3d::UnitX(), depth(0, 0, -0.008), air(0, 0, 0.001);
+  const auto condition = [&](const Vector3d& place) {
+    return translation_conditioning(*jacobian(parameters, *reach_position(parameters, home, place, 30))).condition;
+  };
+  const bool is_home_good = condition(home.position + depth) < condition(there + depth);
+  const Vector3d good = is_home_good ? home.position : there, bad = is_home_good ? there : home.position;
+  const double least = std::fmax(condition(good), condition(good + depth)), most = condition(bad + depth);
+  BOOST_REQUIRE(most > least + 0.1);
+  Haptic_parameters fading; // between them all is lost
+  fading.limits.full_condition = least + 0.01, fading.limits.no_condition = 0.5 * (least + most);
+  Wall_run run(parameters, fading, Vector3d::UnitZ());
+  run.go(home.position + air), run.go(good + air), run.go(good + depth);
+  BOOST_TEST(run.force() > 1);
+  run.go(bad + depth);
+  BOOST_TEST(run.force() == 0);
+  run.lose_the_wall_on_the_way_to(good + depth);
+  BOOST_TEST(run.most_force_since() == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -97,8 +97,7 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
       continue;
     totals.push_back(row(name, tally));
   }
-  if (unwritten != 0)
-    promises.add(benchmark::cannot_write, "cases are written to the folder of --dump", unwritten, unwritten);
+  promises.add_unwritten(benchmark::cannot_write, unwritten);
   std::cout << "seed " << options.seed << ", shard " << shard.text() << ", exit " << promises.exit() << '\n';
   return {
       {"seed", options.seed}, {"drags", options.drags}, {"ways", options.ways}, {"families", rows}, {"total", totals}};

@@ -312,9 +312,7 @@ private:
                  drags_.short_asked - drags_.short_arrived, 0.05);
     promises.add(lazy_creation, "feasible creations are made", edits_.feasible_creations(),
                  edits_.creations_wrongly_refused, 0.01);
-    if (all_counts_.unwritten != 0)
-      promises.add(benchmark::cannot_write, "cases are written to the folder of --dump", all_counts_.unwritten,
-                   all_counts_.unwritten);
+    promises.add_unwritten(benchmark::cannot_write, all_counts_.unwritten);
   }
 };
 

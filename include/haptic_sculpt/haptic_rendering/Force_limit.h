@@ -57,8 +57,8 @@ public:
   }
   const Eigen::Vector3d& value() const { return value_; } ///< the force followed last, N
   void reset() { value_.setZero(); }                      ///< to 0 at once, whatever the rate
-  /// To this norm at once, where it was more.
-  void cut_to(double largest) { value_ = clamped(value_, largest); }
+  /// To a share of it at once.
+  void cut_to(double share) { value_ *= share; }
 
 private:
   Eigen::Vector3d value_ = Eigen::Vector3d::Zero();

@@ -46,12 +46,13 @@ public:
                                bool is_touched) {
     const double share = share_at(handle);
     if (!is_touched && std::exchange(was_touched_, false)) // what the hand has not felt does not come now
-      chain_.cut_to(last_.force.norm() / share), begin_touch();
+      chain_.cut_to(felt_ < share ? felt_ / share : share > 0), begin_touch();
     was_touched_ = is_touched;
     const Eigen::Vector3d force = chain_.follow(wanted, way, elapsed);
     carried_ = std::fmin(1.0, carried_ + chain_.tick() / chain_.limits().ramp_time);
     share_ = is_touched ? std::fmin(share_, share) : share;
     in_room(handle, clamped(force * share_, room_));
+    felt_ = force.isZero(0) ? share_ : last_.force.norm() / force.norm();
     if (!last_.force.allFinite() || !last_.torque.allFinite())
       last_ = Rendered_force(), last_.is_finite = false;
     return last_;
@@ -92,6 +93,7 @@ private:
   /// Since nothing was touched: the least share_at(), and the least force, N, for which motors had no more room.
   double share_ = 1, room_ = std::numeric_limits<double>::infinity();
   bool was_touched_ = false; ///< in the last tick
+  double felt_ = 0;          ///< share of the last tick's force that came to the hand
   Rendered_force last_;
 
   void begin_touch() { share_ = 1, room_ = std::numeric_limits<double>::infinity(); }

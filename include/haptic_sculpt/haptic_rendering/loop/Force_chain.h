@@ -34,8 +34,8 @@ public:
   double left() const { return fade_.share(); }      ///< that share in the last tick; 1 without a fault
   bool has_faded() const { return fade_.is_over(); } ///< the share has come to 0
 
-  /// Of the last force no more than this has come to the hand: the next one follows that. \param force norm, N
-  void cut_to(double force) { slew_.cut_to(ramp_ > 0 ? force / ramp_ : 0); }
+  /// A share of the last force is what the next one follows: no more has come to the hand. Bursts go on.
+  void cut_to(double share) { slew_.cut_to(share); }
 
   /// A refused edit is felt. \param direction in axes of the device \param mobility of the free handle there, 1/kg
   void refuse(const Eigen::Vector3d& direction, double mobility) { burst_.begin(direction, mobility); }
