@@ -185,10 +185,10 @@ BOOST_AUTO_TEST_CASE(what_has_not_been_felt_does_not_come_when_the_touch_ends) {
   };
   const bool is_home_good = condition(home.position + depth) < condition(there + depth);
   const Vector3d good = is_home_good ? home.position : there, bad = is_home_good ? there : home.position;
-  const double least = std::fmax(condition(good), condition(good + depth)), most = condition(bad + depth);
-  BOOST_REQUIRE(most > least + 0.1);
-  Haptic_parameters fading; // between them all is lost
-  fading.limits.full_condition = least + 0.01, fading.limits.no_condition = 0.5 * (least + most);
+  const Vector3d back = 0.0001 * (good - bad).normalized();
+  Haptic_parameters fading; // a tenth of a millimetre before the bad place all is lost
+  fading.limits.full_condition = fading.limits.no_condition = condition(bad + depth + back);
+  BOOST_REQUIRE(fading.limits.full_condition > std::fmax(condition(good), condition(good + depth)) + 0.1);
   Wall_run run(parameters, fading, Vector3d::UnitZ());
   run.go(home.position + air), run.go(good + air), run.go(good + depth);
   BOOST_TEST(run.force() > 1);
