@@ -67,14 +67,17 @@ def with_programs_of_its_own(tree, **texts):
 
 
 def numerics(tree):
-    """A number that is none is far, wherever it stands, and so is what is no longer 0; zeros are not."""
+    """A number that is none is far, wherever it stands, and so is what is no longer 0; zeros are not. A part that is
+    missing is not the same."""
     words = (sys.executable, tree / "test/numerics", "--build", tree / "numerics", "-R", "^clang.. -O3$")
     for said, code, numbers in (("| 0e+00 |", 0, "0 -0 0"), ("| inf **far** |", 1, "0 0 1e-300"),
                                 ("| inf **far** |", 1, "nan 0 0"), ("| inf **far** |", 1, "0 nan 0")):
         for name, told in (("g_Debug", "0 0 0"), ("clang_O3", numbers)):
             program(tree / "numerics" / name / "test/result_bits/result_bits",
-                    f"#!/bin/sh\necho scene 1\necho device place 1 2 3\necho device torque {told}\n")
+                    f"#!/bin/sh\nfor part in scene sweeps validate axis_moves finding edits; do echo $part 1; done\necho device place 1 2 3\necho device torque {told}\n")
         expect(code, said, *words, **with_programs_of_its_own(tree, cmake="true"))
+    program(tree / "numerics/g_Debug/test/result_bits/result_bits", "#!/bin/sh\necho scene 1\necho sweeps 1\necho device place 1\n")
+    expect(1, "lacks what is to be compared: validate", *words, **with_programs_of_its_own(tree, cmake="true"))
 
 
 def coverage(tree):

@@ -55,9 +55,9 @@ int main(int argc, char** argv) try {
   });
   const Pose_loop_parameters parameters(3); // N s/m that the device itself has: it bounds the stiffness
   Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.map, parameters);
+  Driver driver;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     std::signal(signal, [](int s) { is_ended = 1, std::signal(s, SIG_DFL); }); // a second one ends it at once
-  Driver driver;
   using Clock = std::chrono::steady_clock;
   auto next = Clock::now();
   for (int tick = 0; tick < 1500 && !loop.has_stopped() && is_ended == 0; ++tick) {

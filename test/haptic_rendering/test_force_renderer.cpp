@@ -187,6 +187,9 @@ BOOST_AUTO_TEST_CASE(slew_limit_and_clamp) {
     BOOST_TEST(std::abs(slew.follow(wanted, 0.3).norm() - 0.3 * k) <= 1e-12);
   slew.follow(wanted, 0.3), slew.follow(wanted, 0.3);
   BOOST_TEST(slew.value() == wanted);
+  slew.cut_to(0.5);
+  BOOST_TEST(slew.value() == 0.5 * wanted);
+  slew.follow(wanted, 5);
   int ticks = 0;
   while (slew.follow(Vector3d::Zero(), 0.3) != Vector3d::Zero())
     ++ticks;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
+#include <haptic_sculpt/to_float.h>
 
 #include <cmath>
 #include <cstdint>
@@ -35,7 +36,7 @@ inline double rounded_to(Vertex_attribute::Type type, double x) {
     return x;
   const internal::Rounding_to_nearest rounding;
   if (type == Type::float32)
-    return static_cast<float>(x);
+    return internal::to_float(x);
   const double nearest = std::nearbyint(x);
   const int i = static_cast<int>(type);
   return (nearest > low[i] ? std::fmin(nearest, high[i]) : low[i]) + 0.0; // NaN: the least; -0: +0

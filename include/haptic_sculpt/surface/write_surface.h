@@ -11,6 +11,7 @@
 #include <haptic_sculpt/surface/io/replace_file.h>
 #include <haptic_sculpt/surface/validate.h>
 #include <haptic_sculpt/surface/vertex_attributes.h>
+#include <haptic_sculpt/to_float.h>
 
 #include <boost/range/iterator_range.hpp>
 
@@ -131,7 +132,7 @@ Face_soup compacted(const Mesh& mesh, const Write_parameters& parameters) {
 
 inline Face_soup rounded_to_float(Face_soup soup) {
   for (auto& p : soup.points)
-    p = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+    p = {to_float(p.x()), to_float(p.y()), to_float(p.z())};
   return soup;
 }
 

@@ -41,14 +41,14 @@ struct Scaled_scene {
     return {computed(p.x() * share + along * unit), computed(p.y() * share), computed(p.z() * share)};
   }
   static Vertex_index vertex(std::size_t i) { return Vertex_index(static_cast<Mesh::size_type>(i)); }
-  static constexpr std::size_t ball_size = 42;
-
-private:
-  /// Worked out here: else clang, to which all modes are one, does so where it is used, in the caller's mode.
+  /// Worked out here: else a compiler, to which all modes are one, does so where it is used, in the caller's mode.
   static double computed(double x) {
     const volatile double here = x;
     return here;
   }
+  static constexpr std::size_t ball_size = 42;
+
+private:
   static double on_grid(double x) { return std::ldexp(std::rint(std::ldexp(0.75 * x, 20)), -20); }
 };
 

@@ -187,7 +187,9 @@ inline std::vector<Public_function> free_functions() {
                        // A plane is given by a direction, of any length, and a place.
                        const auto plane = [&] {
                          const internal::Rounding_to_nearest rounding; // its constructor multiplies
-                         return meshes::Kernel::Plane_3(scene.at(0.25, 0, 0), meshes::Kernel::Vector_3(1, 0.5, 0.25));
+                         const meshes::Kernel::Plane_3 made(scene.at(0.25, 0, 0),
+                                                            meshes::Kernel::Vector_3(1, 0.5, 0.25));
+                         return meshes::Kernel::Plane_3(1, 0.5, 0.25, Scaled_scene::computed(made.d()));
                        }();
                        const auto other = mirrored(dab, plane);
                        outcome.point(other.centre);

@@ -63,7 +63,7 @@ public:
   /// A float that is not above x times the factor. What the product has lost, and the conversion, the comparison tells:
   /// a float times the inverse is exact, or so large that the next float down is right, too.
   float below(double x) const {
-    const float f = static_cast<float>(x * factor_);
+    const float f = to_float(x * factor_);
     return next_down(f, static_cast<double>(f) * inverse_ > x);
   }
   /// A float that is not below it.

@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/surface/Box_3.h>
 #include <haptic_sculpt/surface/broad_phase/Box_node.h>
+#include <haptic_sculpt/to_float.h>
 
 #include <cmath>
 
@@ -79,7 +80,7 @@ private:
   void restrict_time(int bound, float origin, double extent, bool is_upper) {
     if (!(std::abs(extent) >= least_extent && std::abs(extent) <= largest_extent))
       return;
-    const Limit limit{bound, origin, static_cast<float>(1 / extent)};
+    const Limit limit{bound, origin, to_float(1 / extent)};
     if ((extent > 0) == is_upper)
       last_[lasts_++] = limit;
     else

@@ -28,8 +28,8 @@ public:
     double low = 0, high = 0, across = 0;
     bool are_finite = true;
     for (int i = 0; i < 3; ++i) {
-      origin_[i] = static_cast<float>(g[i]); // any origin will do
-      normal_[i] = static_cast<float>(normal[i] / largest);
+      origin_[i] = to_float(g[i]); // any origin will do
+      normal_[i] = to_float(normal[i] / largest);
     }
     // Both factors are floats from here on: what is bounded is this function, whatever it has to do with the plane.
     const auto include = [&](const Swept_star_3::Coordinates& p, bool is_first) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/surface/Box_3.h>
+#include <haptic_sculpt/to_float.h>
 
 #include <cstdint>
 #include <cstring>
@@ -23,7 +24,7 @@ inline float next_down(float x, bool is_wanted = true) {
 
 /// A float that is not above x. The conversion may round either way; a comparison, which does not round, tells.
 inline float float_below(double x) {
-  const float f = static_cast<float>(x);
+  const float f = to_float(x);
   return next_down(f, static_cast<double>(f) > x);
 }
 
