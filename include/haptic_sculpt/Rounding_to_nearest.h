@@ -19,6 +19,11 @@ public:
   Rounding_to_nearest() : was_(state()), changed_(!is_nearest(was_)) {
     if (changed_)
       set_nearest();
+#if defined(__GNUC__)
+    // That it is the same at the end the compiler is not to know: it would make what follows twice, and what both have
+    // in common before the mode is asked for.
+    asm volatile("" : "+r"(changed_));
+#endif
   }
   ~Rounding_to_nearest() {
     if (changed_)
@@ -67,5 +72,18 @@ private:
 #endif
   }
 };
+
+/// A number that a function gives back that begins with a Rounding_to_nearest: worked out before that ends. To
+/// compilers all modes are one, and inlined they work it out where it is used.
+inline double kept(double x) {
+#if defined(__GNUC__)
+#if defined(__SSE2__)
+  asm volatile("" : "+x"(x));
+#else
+  asm volatile("" : "+m"(x));
+#endif
+#endif
+  return x;
+}
 
 } // namespace haptic_sculpt::internal

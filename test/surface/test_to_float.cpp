@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compiled by -O2, whatever the other tests are: there g++ 12 takes two conversions to float and back for none.
+#include "sculpting/public_functions/Callers_mode.h"
+#include <haptic_sculpt/sculpting/brushes/Dab_3.h>
 #include <haptic_sculpt/surface/Vertex_attribute.h>
 #include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 #include <haptic_sculpt/surface/write_surface.h>
+#include <meshes/generated_meshes.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -69,6 +72,30 @@ BOOST_AUTO_TEST_CASE(boxes_of_floats_hold_boxes_of_doubles) {
           !(around.lower[k] <= box.lower[k] * scale.factor() && around.upper[k] >= box.upper[k] * scale.factor());
   }
   BOOST_TEST(outside == 0u);
+}
+
+// Inlined, in a mode of the caller's.
+BOOST_AUTO_TEST_CASE(numbers_are_worked_out_before_the_mode_is_set_back) {
+  const std::vector<double> all = numbers(300);
+  const Dab_3<meshes::Kernel> dab{Brush_kind::grab, {0.1, 0.2, 0.3}, 0.7, 0.5, {}};
+  const auto each = [&](std::vector<double>& results) {
+    for (std::size_t i = 0; i + 2 < all.size(); ++i) {
+      results.push_back(rounded_to(Vertex_attribute::Type::float32, all[i]));
+      results.push_back(rounded_to(Vertex_attribute::Type::int8, 1e-9 * all[i]));
+      results.push_back(dab.squared_share({all[i], all[i + 1], all[i + 2]}));
+    }
+  };
+  std::vector<double> usual;
+  each(usual);
+  for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::vector<double> results;
+    results.reserve(usual.size());
+    {
+      const test::Callers_mode mode(rounding, false);
+      each(results);
+    }
+    BOOST_TEST((results == usual), "mode " << rounding);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

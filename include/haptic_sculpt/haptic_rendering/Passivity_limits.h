@@ -52,12 +52,12 @@ struct Worst_pose {
   /// b_phys at the handle, N s/m, in units of what is rendered.
   double friction(const Device_parameters<double>& parameters) const {
     const internal::Rounding_to_nearest rounding;
-    return is_found ? parameters.viscous_friction() / (greatest * greatest * fading) : 0;
+    return internal::kept(is_found ? parameters.viscous_friction() / (greatest * greatest * fading) : 0);
   }
   /// The most, m, that one count of an encoder may be worth at the handle, in units of what is rendered.
   double count(const Device_parameters<double>& parameters) const {
     const internal::Rounding_to_nearest rounding;
-    return is_found ? parameters.encoder_step() * greatest * std::sqrt(fading) : 0;
+    return internal::kept(is_found ? parameters.encoder_step() * greatest * std::sqrt(fading) : 0);
   }
   /// The least apparent mass at the handle, kg, in units of what is rendered.
   double apparent_mass(const Device_parameters<double>& parameters) const {

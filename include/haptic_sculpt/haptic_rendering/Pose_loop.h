@@ -24,27 +24,29 @@ struct Pose_loop_parameters : Loop_parameters {
   /// 2 (friction - |b|) / (T (1 + 2 d)), N/m: up to it no hand can be given energy. Infinite without force.
   double passive_stiffness() const {
     const internal::Rounding_to_nearest rounding;
-    return has_force() ? haptic_sculpt::passive_stiffness(device.friction, coupling.damping, tick, delay)
-                       : std::numeric_limits<double>::infinity();
+    return internal::kept(has_force() ? haptic_sculpt::passive_stiffness(device.friction, coupling.damping, tick, delay)
+                                      : std::numeric_limits<double>::infinity());
   }
   /// Beyond it steps of the position are felt, N/m. Infinite without force, or where it is exact.
   double calm_stiffness() const {
     const internal::Rounding_to_nearest rounding;
-    return haptic_sculpt::calm_stiffness(has_force() ? device.resolution : 0, coupling.damping);
+    return internal::kept(haptic_sculpt::calm_stiffness(has_force() ? device.resolution : 0, coupling.damping));
   }
   /// The damping of a passivity controller that may be asked for, N s/m. 0 without force.
   double largest_controller() const {
     const internal::Rounding_to_nearest rounding;
-    return has_force()
-               ? std::fmin(device.mass * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity()),
-                           Passivity_controller::largest_damping)
-               : 0;
+    return internal::kept(
+        has_force()
+            ? std::fmin(device.mass * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity()),
+                        Passivity_controller::largest_damping)
+            : 0);
   }
 
   /// The virtual mass that may be asked for, kg: a share of that of the handle. 0 without force.
   double largest_mass() const {
     const internal::Rounding_to_nearest rounding;
-    return has_force() ? stable_share * device.mass * critical_mass_ratio(tick, delay, virtual_mass.cutoff) : 0;
+    return internal::kept(
+        has_force() ? stable_share * device.mass * critical_mass_ratio(tick, delay, virtual_mass.cutoff) : 0);
   }
 
   /// As all loops have them. \throw Error naming what cannot be used

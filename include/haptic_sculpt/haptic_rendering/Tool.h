@@ -224,7 +224,7 @@ private:
   /// That is left of the offset after a tick.
   static double offset_share(double tick) {
     const internal::Rounding_to_nearest rounding;
-    return std::exp(-tick / offset_time);
+    return internal::kept(std::exp(-tick / offset_time));
   }
 
   void drop() {

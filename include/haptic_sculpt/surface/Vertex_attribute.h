@@ -36,10 +36,10 @@ inline double rounded_to(Vertex_attribute::Type type, double x) {
     return x;
   const internal::Rounding_to_nearest rounding;
   if (type == Type::float32)
-    return internal::to_float(x);
+    return internal::kept(internal::to_float(x));
   const double nearest = std::nearbyint(x);
   const int i = static_cast<int>(type);
-  return (nearest > low[i] ? std::fmin(nearest, high[i]) : low[i]) + 0.0; // NaN: the least; -0: +0
+  return internal::kept((nearest > low[i] ? std::fmin(nearest, high[i]) : low[i]) + 0.0); // NaN: the least; -0: +0
 }
 
 } // namespace haptic_sculpt

@@ -42,7 +42,7 @@ struct Dab_3 {
     const internal::Rounding_to_nearest rounding;
     const auto d = p - centre;
     const double x = d.x() / radius, y = d.y() / radius, z = d.z() / radius;
-    return x * x + y * y + z * z;
+    return internal::kept(x * x + y * y + z * z);
   }
 };
 
