@@ -27,6 +27,7 @@ public:
 
   const Vector3d& home() const { return home_.position; }
   double given() const { return given_; } ///< to the hand, by the torques of the motors less the weight's
+  double balance() const { return loop_.observer().balance(); } ///< of the observer, J
   double most_force() const { return most_force_; }
   Loop_fault fault() const { return loop_.fault(); }
 
@@ -103,6 +104,13 @@ double room_at(const Device_parameters<double>& device, const Vector3d& place, c
   return 5 * share_in_room(J->linear.transpose() * force, gravity_torque(device, *pose, *J), device.torque_limit());
 }
 
+/// Whose motors have room for any force. \param friction of a joint, N m s/rad
+Device_parameters<double> strong_device(double friction) {
+  Device_description<double> d = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
+  d.viscous_friction = friction, d.torque_limit = 10;
+  return Device_parameters<double>(d);
+}
+
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(pose_and_force)
@@ -144,9 +152,7 @@ BOOST_AUTO_TEST_CASE(no_energy_comes_of_where_the_motors_have_more_room) {
 
 // The same of the share by cond(J): fading from a stiff wall to a soft one gives nothing either.
 BOOST_AUTO_TEST_CASE(no_energy_comes_of_where_the_force_fades_less) {
-  Device_description<double> d = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
-  d.viscous_friction = 0.005, d.torque_limit = 10;
-  const Device_parameters<double> parameters(d);
+  const Device_parameters<double> parameters = strong_device(0.005);
   Haptic_parameters fading;
   fading.limits.full_condition = 1, fading.limits.no_condition = 3;
   const Vector3d normal = Vector3d::UnitZ();
@@ -174,9 +180,7 @@ BOOST_AUTO_TEST_CASE(no_energy_comes_of_where_the_force_fades_less) {
 
 // Where it fades to nothing, whatever it was, nothing is left of it as the touch ends.
 BOOST_AUTO_TEST_CASE(what_has_not_been_felt_does_not_come_when_the_touch_ends) {
-  Device_description<double> d = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
-  d.viscous_friction = 0.005, d.torque_limit = 10;
-  const Device_parameters<double> parameters(d);
+  const Device_parameters<double> parameters = strong_device(0.005);
   const Device_pose<double> home = *home_pose(parameters);
   const double radius = 0.8 * workspace_radius(parameters, home);
   const Vector3d there = home.position + radius * Vector3d::UnitX(), depth(0, 0, -0.008), air(0, 0, 0.001);
@@ -196,6 +200,21 @@ BOOST_AUTO_TEST_CASE(what_has_not_been_felt_does_not_come_when_the_touch_ends) {
   BOOST_TEST(run.force() == 0);
   run.lose_the_wall_on_the_way_to(good + depth);
   BOOST_TEST(run.most_force_since() == 0);
+}
+
+// Beyond the clamp a spring gives back force times way, not half of stiffness times its square.
+BOOST_AUTO_TEST_CASE(the_observer_keeps_no_more_of_friction_than_a_clamped_spring_gives_back) {
+  const Device_parameters<double> parameters = strong_device(0.1);
+  const Haptic_parameters defaults;
+  Wall_run run(parameters, defaults, Vector3d::UnitZ());
+  const double way = 0.025, force = defaults.limits.largest, stiffness = defaults.coupling.stiffness; // m
+  BOOST_REQUIRE(stiffness * way > 2 * force);
+  const Vector3d depth(0, 0, -way), aside(0.02, 0, 0);
+  run.go(run.home() + depth);
+  for (int pass = 0; pass < 8; ++pass)
+    run.go(run.home() + depth + aside), run.go(run.home() + depth);
+  const double reserve = 0.05 + 0.3 * force * force / defaults.limits.slew; // snap, burst and falls, J
+  BOOST_TEST(std::abs(run.balance() - (reserve + force * way - 0.5 * force * force / stiffness)) < 0.002);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

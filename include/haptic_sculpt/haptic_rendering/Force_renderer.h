@@ -46,7 +46,7 @@ public:
                                bool is_touched) {
     const double share = share_at(handle);
     if (!is_touched && std::exchange(was_touched_, false)) // what the hand has not felt does not come now
-      chain_.cut_to(felt_ < share ? felt_ / share : share > 0), begin_touch();
+      chain_.cut_to(share > 0 ? std::fmin(1.0, felt_ / share) : 0), forget_touch();
     was_touched_ = is_touched;
     const Eigen::Vector3d force = chain_.follow(wanted, way, elapsed);
     carried_ = std::fmin(1.0, carried_ + chain_.tick() / chain_.limits().ramp_time);
@@ -78,7 +78,7 @@ public:
     const double left = last_.is_finite ? chain_.left() : 0;
     const Eigen::Vector3d weight = left * (last_.torque - last_.interaction_torque);
     carried_ *= left;
-    chain_.restart(), begin_touch(), last_ = Rendered_force();
+    chain_.restart(), forget_touch(), last_ = Rendered_force();
     last_.torque = weight; // fades, where a fault comes next
   }
 
@@ -96,7 +96,7 @@ private:
   double felt_ = 0;          ///< share of the last tick's force that came to the hand
   Rendered_force last_;
 
-  void begin_touch() { share_ = 1, room_ = std::numeric_limits<double>::infinity(); }
+  void forget_touch() { share_ = 1, room_ = std::numeric_limits<double>::infinity(); }
 
   /// By cond(J), and by the friction that is left at the handle, as the coupling is passive with.
   double share_at(const Handle_motion& handle) const {

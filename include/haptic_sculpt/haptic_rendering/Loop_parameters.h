@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/haptic_rendering/Debounced_button.h>
-#include <haptic_sculpt/haptic_rendering/Force_renderer.h>
+#include <haptic_sculpt/haptic_rendering/Force_limit.h>
 #include <haptic_sculpt/haptic_rendering/Vertex_snap.h>
 #include <haptic_sculpt/haptic_rendering/Virtual_mass.h>
 

@@ -158,7 +158,7 @@ private:
   /// What the spring gives back at most as a hand comes out, its force clamped. \param way of the spring, m \return J
   double held_energy(double way) const {
     const double force = std::fmin(stiffness_ * way, largest_);
-    return force * (way - 0.5 * force / std::fmax(stiffness_, std::numeric_limits<double>::min()));
+    return stiffness_ > 0 ? force * (way - 0.5 * force / stiffness_) : 0;
   }
 
   /// The share of the spring that is rendered. Where it gets stiffer while a hand presses it, under a ramp, or is back
