@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/Non_finite_point.h>
 #include <haptic_sculpt/sculpting/Unknown_vertex.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
